@@ -1,0 +1,376 @@
+/// Time of the library's generic code over that of a loop written by hand for the smallest case: omni lights, one
+/// representative a cluster, Lambert's material, an oracle of one ray at a time. Both do the same work and must agree
+/// bit for bit. Prints both times and writes abstraction_penalty.json.
+
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+
+#include <CLI/CLI.hpp>
+#include <lightcuts/cut/lightcut.hpp>
+#include <lightcuts/light/omni.hpp>
+#include <lightcuts/material/lambert.hpp>
+#include <nlohmann/json.hpp>
+
+#include "workload.hpp"
+
+namespace {
+
+using lightcuts::hash_keys;
+using lightcuts::to_unit;
+using Light = lightcuts::OmniLight<>;
+using Tree = lightcuts::LightTree<Light>;
+using Material = lightcuts::Lambert<>;
+using Point = lightcuts::Receiver<Material>;
+using Result = lightcuts::CutResult<glm::vec3>;
+
+/// A ball above the floor is all that casts a shadow.
+bool is_lit(const glm::vec3& from, const glm::vec3& to) {
+    const glm::vec3 ball(5.0f, 1.0f, 5.0f), d = to - from, offset = ball - from;
+    const float along = glm::dot(offset, d), length2 = glm::dot(d, d);
+    if (along <= 0.0f || along >= length2) return true;
+    return glm::dot(offset, offset) - along * along / length2 > 0.64f;
+}
+
+struct BallOracle {
+    bool operator()(const Point& receiver, const Light& light) const {
+        return is_lit(receiver.shadow_origin, light.position);
+    }
+};
+
+/// Lightcuts without a template: what the library comes to for this case, with an unlimited cut.
+class HandWritten {
+public:
+    HandWritten(const Tree& tree, float error_ratio)
+        : lights_(tree.lights().data()), words_(tree.topology().words().data()), clusters_(tree.clusters().data()),
+          representatives_(tree.representatives().of(0).data()), root_(tree.topology().root()),
+          threshold_(static_cast<double>(error_ratio)) {}
+
+    Result shade(const Point& point) {
+        point_ = &point;
+        albedo_ = point.material.cosine_lobe().scale;
+        active_.clear();
+        resting_.clear();
+        fresh_.clear();
+        for (int c = 0; c < 3; ++c) total_[c] = weight_[c] = marked_[c] = 0.0;
+        largest_ = 0.0;
+        queries_ = 0;
+        constexpr float infinity = std::numeric_limits<float>::infinity();
+        add_node(root_, glm::vec3(infinity));
+        set_terms(fresh_.back());
+        do {
+            absorb();
+            weigh();
+            if (growth() * rest_below > 1.0) wake();
+            select();
+            for (const Candidate& c : chosen_) split(Node(active_[c.at]));
+            for (std::size_t i = chosen_.size(); i-- > 0;) {
+                active_[chosen_[i].at] = active_.back();
+                active_.pop_back();
+            }
+        } while (!chosen_.empty());
+        return result();
+    }
+
+private:
+    static constexpr double rest_below = 0.9;
+
+    struct Node {
+        std::uint32_t node, representative;
+        glm::vec3 terms, estimate, unit_bound, bound;
+        bool bounded, asks;
+    };
+    struct Candidate {
+        std::uint32_t at;
+        double priority;
+    };
+
+    bool is_leaf(std::uint32_t n) const { return (words_[n] & 0x8000'0000u) != 0; }
+    const Light& light_of(std::uint32_t leaf) const { return lights_[words_[leaf] & 0x7fff'ffffu]; }
+
+    static glm::vec3 finite(const glm::vec3& v) {
+        constexpr float largest = std::numeric_limits<float>::max();
+        return {v.x < largest ? v.x : largest, v.y < largest ? v.y : largest, v.z < largest ? v.z : largest};
+    }
+
+    /// Where 0 x infinity = 0.
+    static glm::vec3 product(const glm::vec3& a, const glm::vec3& b) {
+        const glm::vec3 p = a * b;
+        const double sum = static_cast<double>(p.x) + static_cast<double>(p.y) + static_cast<double>(p.z);
+        if (sum == sum) return p;
+        const auto safe = [](float x, float y) { return x > 0.0f && y > 0.0f ? x * y : 0.0f; };
+        return {safe(a.x, b.x), safe(a.y, b.y), safe(a.z, b.z)};
+    }
+
+    Node& add_node(std::uint32_t n, const glm::vec3& unit_bound) {
+        Node& node = fresh_.emplace_back();
+        node.node = n;
+        node.unit_bound = unit_bound;
+        if (!is_leaf(n)) node.bound = product(unit_bound, clusters_[n].intensity);
+        return node;
+    }
+
+    /// Shades the node by its own representative, but for the shadow ray.
+    void set_terms(Node& node) {
+        node.representative = representatives_[node.node];
+        const glm::dvec3 offset =
+            glm::dvec3(light_of(node.representative).position) - glm::dvec3(point_->position);
+        const double distance2 = glm::dot(offset, offset);
+        if (!(distance2 > 0.0)) return;
+        const double inverse = 1.0 / std::sqrt(distance2);
+        const float cosine = glm::dot(point_->material.normal, glm::vec3(offset * inverse));
+        if (!(cosine > 0.0f)) return;
+        node.terms = finite(albedo_ * cosine * static_cast<float>(std::min(inverse * inverse, 3.4028234663852886e38)));
+        node.estimate = finite(node.terms * clusters_[node.node].intensity);
+        node.asks = node.terms != glm::vec3(0.0f);
+        queries_ += node.asks ? 1 : 0;
+    }
+
+    void split(const Node& parent) {
+        add(parent.estimate, -1.0);
+        const std::uint32_t right = parent.node - 1;
+        const std::uint32_t left = (is_leaf(right) ? right : words_[right]) - 1;
+        const bool in_left = parent.representative <= left;
+        Node& heir = add_node(in_left ? left : right, parent.unit_bound);
+        heir.representative = parent.representative;
+        heir.terms = parent.terms;
+        heir.estimate = finite(heir.terms * clusters_[heir.node].intensity);
+        set_terms(add_node(in_left ? right : left, parent.unit_bound));
+    }
+
+    void add(const glm::vec3& estimate, double sign) {
+        for (int c = 0; c < 3; ++c) {
+            total_[c] += sign * static_cast<double>(estimate[c]);
+            largest_ = total_[c] > largest_ ? total_[c] : largest_;
+        }
+    }
+
+    /// Traces the shadow rays of new nodes, which join the frontier.
+    void absorb() {
+        for (Node& node : fresh_) {
+            if (node.asks && !is_lit(point_->shadow_origin, light_of(node.representative).position)) {
+                node.terms = node.terms * 0.0f;
+                node.estimate = node.estimate * 0.0f;
+            }
+            node.asks = false;
+            add(node.estimate, 1.0);
+        }
+        for (const Node& node : fresh_) (node.bound == glm::vec3(0.0f) ? resting_ : active_).push_back(node);
+        fresh_.clear();
+    }
+
+    void weigh() {
+        const double smallest = std::min(total_[0], std::min(total_[1], total_[2]));
+        if (!(largest_ <= 1e6 * smallest)) {
+            for (double& t : total_) t = 0.0;
+            largest_ = 0.0;
+            for (const Node& node : active_) add(node.estimate, 1.0);
+            for (const Node& node : resting_) add(node.estimate, 1.0);
+        }
+        for (int c = 0; c < 3; ++c) weight_[c] = total_[c] > 1e-150 ? 1.0 / total_[c] : 1e150;
+    }
+
+    double growth() const {
+        double largest = 0.0;
+        for (int c = 0; c < 3; ++c) largest = std::max(largest, weight_[c] / marked_[c]);
+        return largest;
+    }
+
+    void wake() {
+        std::size_t kept = 0;
+        for (const Node& node : resting_) {
+            if (node.bound == glm::vec3(0.0f)) {
+                resting_[kept++] = node;
+            } else {
+                active_.push_back(node);
+            }
+        }
+        resting_.resize(kept);
+        for (int c = 0; c < 3; ++c) marked_[c] = weight_[c];
+    }
+
+    double priority(const Node& node) const {
+        double largest = 0.0;
+        for (int c = 0; c < 3; ++c) {
+            const double p = static_cast<double>(node.bound[c]) * weight_[c];
+            largest = p > largest ? p : largest;
+        }
+        return largest;
+    }
+
+    void select() {
+        chosen_.clear();
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < active_.size(); ++i) {
+            const double p = priority(active_[i]);
+            if (p <= rest_below * threshold_) {
+                resting_.push_back(active_[i]);
+                continue;
+            }
+            if (p > threshold_) chosen_.push_back({static_cast<std::uint32_t>(kept), p});
+            if (kept != i) active_[kept] = active_[i];
+            ++kept;
+        }
+        active_.resize(kept);
+        tighten();
+        double largest = 0.0;
+        for (Candidate& c : chosen_) {
+            c.priority = priority(active_[c.at]);
+            if (c.priority < std::numeric_limits<double>::infinity()) largest = std::max(largest, c.priority);
+        }
+        std::erase_if(chosen_, [&](const Candidate& c) {
+            return !(c.priority > threshold_) || c.priority < 0.25 * largest;
+        });
+    }
+
+    /// Bounds the candidates that only have their parents' bounds.
+    void tighten() {
+        using lightcuts::ClusterBlock;
+        Node* members[ClusterBlock::width];
+        for (std::size_t begin = 0; begin < chosen_.size();) {
+            int count = 0;
+            for (; begin < chosen_.size() && count < ClusterBlock::width; ++begin) {
+                Node& node = active_[chosen_[begin].at];
+                if (!node.bounded) members[count++] = &node;
+            }
+            if (count == 0) continue;
+            ClusterBlock block;
+            for (int i = 0; i < count; ++i) block.set(i, clusters_[members[i]->node], point_->position);
+            block.finish(count);
+            lightcuts::detail::lane_inverse_square(point_->material.normal, block);
+            for (int i = 0; i < count; ++i) {
+                Node& node = *members[i];
+                node.bounded = true;
+                lower(node, lightcuts::detail::scale_bound(albedo_, block.bound[i]));
+                const double p = priority(node);
+                if (p > threshold_ && p < lightcuts::TwoStageBounds{}.doubt * threshold_) {
+                    const lightcuts::ClusterView view = lightcuts::view_of(clusters_[node.node], point_->position);
+                    const glm::dvec3 normal(point_->material.normal);
+                    lower(node, lightcuts::detail::scale_bound(
+                                    albedo_, lightcuts::max_power<3>(normal, view.box, 2e-3).value));
+                }
+            }
+        }
+    }
+
+    void lower(Node& node, const glm::vec3& unit) const {
+        node.unit_bound = glm::min(node.unit_bound, unit);
+        node.bound = product(node.unit_bound, clusters_[node.node].intensity);
+    }
+
+    Result result() const {
+        double radiance[3] = {}, bound[3] = {};
+        for (const auto* nodes : {&resting_, &active_}) {
+            for (const Node& node : *nodes) {
+                for (int c = 0; c < 3; ++c) {
+                    radiance[c] += static_cast<double>(node.estimate[c]);
+                    bound[c] += static_cast<double>(node.bound[c]);
+                }
+            }
+        }
+        Result result;
+        result.radiance = finite(glm::vec3(radiance[0], radiance[1], radiance[2]));
+        for (int c = 0; c < 3; ++c) result.error_bound[c] = lightcuts::round_up(bound[c]);
+        result.cut_size = static_cast<std::uint32_t>(active_.size() + resting_.size());
+        result.queries = queries_;
+        return result;
+    }
+
+    const Light* lights_;
+    const std::uint32_t* words_;
+    const Tree::cluster* clusters_;
+    const std::uint32_t* representatives_;
+    std::uint32_t root_;
+    double threshold_;
+
+    const Point* point_ = nullptr;
+    glm::vec3 albedo_{};  ///< over pi
+    double total_[3]{}, weight_[3]{}, marked_[3]{}, largest_ = 0;
+    std::uint32_t queries_ = 0;
+    std::vector<Node> active_, resting_, fresh_;
+    std::vector<Candidate> chosen_;
+};
+
+/// Lights in a room of 10 x 4 x 10 m.
+std::vector<Light> room_lights(std::size_t count) {
+    std::vector<Light> lights(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto uniform = [i](int k) { return static_cast<float>(to_unit(hash_keys(1, i, k))); };
+        lights[i].position = {10.0f * uniform(0), 2.0f + 2.0f * uniform(1), 10.0f * uniform(2)};
+        lights[i].intensity = {uniform(3), uniform(4), uniform(5)};
+    }
+    return lights;
+}
+
+/// Points on the uneven floor of that room.
+std::vector<Point> floor_points(std::size_t count) {
+    std::vector<Point> points;
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto uniform = [i](int k) { return static_cast<float>(to_unit(hash_keys(2, i, k))); };
+        const glm::vec3 normal = glm::normalize(glm::vec3(uniform(0) - 0.5f, 1.0f, uniform(1) - 0.5f));
+        const glm::vec3 position(10.0f * uniform(2), 0.0f, 10.0f * uniform(3));
+        points.emplace_back(position, Material{normal, glm::vec3(0.6f, 0.5f, 0.4f)});
+    }
+    return points;
+}
+
+bool same_bits(const Result& a, const Result& b) {
+    return std::memcmp(&a.radiance, &b.radiance, sizeof a.radiance) == 0 &&
+           std::memcmp(&a.error_bound, &b.error_bound, sizeof a.error_bound) == 0 && a.cut_size == b.cut_size &&
+           a.queries == b.queries;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    std::size_t light_count = 10000, point_count = 1000;
+    int runs = 31;
+    CLI::App app{"Time of the generic code over that of a loop written by hand"};
+    app.add_option("--lights", light_count, "omni lights")->check(CLI::PositiveNumber);
+    app.add_option("--points", point_count, "receivers")->check(CLI::PositiveNumber);
+    app.add_option("--runs", runs, "medians are over this many")->check(CLI::PositiveNumber);
+    CLI11_PARSE(app, argc, argv);
+
+    const std::vector<Light> lights = room_lights(light_count);
+    const std::vector<Point> points = floor_points(point_count);
+    const Tree tree(lights);
+    lightcuts::LightcutOptions options;
+    options.max_cut = 0;
+    lightcuts::LightcutScratch<glm::vec3> scratch;
+    std::vector<Result> generic(points.size()), by_hand(points.size());
+    HandWritten hand(tree, options.error_ratio);
+    const auto run_generic = [&] { lightcuts::shade(tree, points, BallOracle{}, generic, scratch, options); };
+    const auto run_by_hand = [&] {
+        for (std::size_t i = 0; i < points.size(); ++i) by_hand[i] = hand.shade(points[i]);
+    };
+
+    run_generic();
+    run_by_hand();
+    double nodes = 0, rays = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (!same_bits(generic[i], by_hand[i])) {
+            std::fprintf(stderr, "bench-abstraction_penalty: the results for point %zu differ\n", i);
+            return 1;
+        }
+        nodes += generic[i].cut_size;
+        rays += generic[i].queries;
+    }
+    std::vector<double> generic_times, hand_times;
+    for (int run = 0; run < runs; ++run) {
+        generic_times.push_back(benchmark::seconds(run_generic));
+        hand_times.push_back(benchmark::seconds(run_by_hand));
+    }
+    const double generic_time = benchmark::median(generic_times), hand_time = benchmark::median(hand_times);
+    const auto count = static_cast<double>(points.size());
+    std::printf("%zu lights, %zu points, mean cut %.1f, %.1f rays\n", lights.size(), points.size(), nodes / count,
+                rays / count);
+    std::printf("%-12s %12s\n", "", "us per point");
+    std::printf("%-12s %12.2f\n", "generic", 1e6 * generic_time / count);
+    std::printf("%-12s %12.2f\n", "by hand", 1e6 * hand_time / count);
+    std::printf("%-12s %12.3f\n", "ratio", generic_time / hand_time);
+    const nlohmann::json json = {{"lights", lights.size()},           {"points", points.size()},
+                                 {"cut_size", nodes / count},         {"shadow_rays", rays / count},
+                                 {"generic_seconds", generic_time},   {"by_hand_seconds", hand_time},
+                                 {"ratio", generic_time / hand_time}};
+    std::ofstream("abstraction_penalty.json") << json.dump(2) << "\n";
+}

@@ -1,0 +1,216 @@
+/// Time of lightcuts against the time of tracing the same shadow rays one by one, and against the exhaustive sum.
+/// One thread. Prints a table and writes lightcut.json.
+
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+
+#include <CLI/CLI.hpp>
+#include <lightcuts/estimate/exhaustive.hpp>
+#include <nlohmann/json.hpp>
+
+#include "workload.hpp"
+
+namespace {
+
+using namespace benchmark;
+using lightcuts::CutResult;
+using lightcuts::EmbreeOracle;
+using lightcuts::VisibilityQuery;
+
+/// Remembers the queries of an oracle and how they came in batches.
+struct RecordingOracle {
+    const EmbreeOracle& oracle;
+    std::vector<VisibilityQuery>& queries;
+    std::vector<std::size_t>& batch_ends;
+
+    void many(std::span<const VisibilityQuery> batch, std::span<float> answers) const {
+        queries.insert(queries.end(), batch.begin(), batch.end());
+        batch_ends.push_back(queries.size());
+        oracle.many(batch, answers);
+    }
+};
+
+/// Counts the bounds that a policy is asked for.
+struct CountingBounds : lightcuts::TwoStageBounds {
+    mutable std::uint64_t* quick_calls;
+    mutable std::uint64_t* tight_calls;
+
+    template <class M, class C>
+    auto quick(const M& material, const C& cluster, const glm::vec3& point) const {
+        ++*quick_calls;
+        return TwoStageBounds::quick(material, cluster, point);
+    }
+    template <class M, class C>
+    auto tight(const M& material, const C& cluster, const glm::vec3& point) const {
+        ++*tight_calls;
+        return TwoStageBounds::tight(material, cluster, point);
+    }
+};
+
+struct Row {
+    std::string scene;
+    std::size_t lights = 0;
+    std::size_t receivers = 0;
+    double cut_size = 0, rays = 0, quick_bounds = 0, tight_bounds = 0;
+    double seconds = 0, ratio = 0, stream_ratio = 0, ns_per_ray = 0, ns_per_node_outside = 0;
+    double exhaustive_seconds = 0, exhaustive_ratio = 0;
+};
+
+struct Sums {
+    std::uint64_t nodes = 0;
+    std::uint64_t queries = 0;
+};
+
+template <class Oracle, class Policy = lightcuts::TwoStageBounds>
+Sums shade_all(const Workload& work, const Oracle& oracle, const Policy& policy = {}) {
+    static lightcuts::LightcutScratch<glm::vec3> scratch;
+    static std::vector<CutResult<glm::vec3>> results(group_size);
+    Sums sums;
+    for_each_group(work.receivers(), [&](std::span<const Receiver> group) {
+        const auto out = std::span(results).first(group.size());
+        lightcuts::shade(work.forest(), group, oracle, out, scratch, {}, policy);
+        for (const auto& r : out) {
+            sums.nodes += r.cut_size;
+            sums.queries += r.queries;
+        }
+    });
+    return sums;
+}
+
+Row measure(const std::string& scene, std::uint32_t area_points, int width, int height, int runs,
+            std::size_t exhaustive_receivers) {
+    const Workload work(scene, area_points, width, height);
+    const EmbreeOracle oracle = work.oracle();
+    Row row;
+    row.scene = scene;
+    row.lights = work.light_count();
+    row.receivers = work.receivers().size();
+    const auto count = static_cast<double>(row.receivers);
+
+    std::vector<VisibilityQuery> queries;
+    std::vector<std::size_t> batch_ends;
+    std::uint64_t quick_calls = 0, tight_calls = 0;
+    CountingBounds counting;
+    counting.quick_calls = &quick_calls;
+    counting.tight_calls = &tight_calls;
+    const Sums sums = shade_all(work, RecordingOracle{oracle, queries, batch_ends}, counting);
+    row.cut_size = static_cast<double>(sums.nodes) / count;
+    row.rays = static_cast<double>(sums.queries) / count;
+    row.quick_bounds = static_cast<double>(quick_calls) / count;
+    row.tight_bounds = static_cast<double>(tight_calls) / count;
+
+    std::vector<RTCRay> rays(queries.size());
+    const auto set_up = [&] {
+        for (std::size_t i = 0; i < queries.size(); ++i) {
+            const VisibilityQuery& q = queries[i];
+            const glm::vec3 d = q.distant ? q.to : q.to - q.from;
+            rays[i] = {q.from.x, q.from.y, q.from.z, 0.0f, d.x, d.y, d.z, 0.0f,
+                       q.distant ? std::numeric_limits<float>::infinity() : 1.0f - 1e-4f, ~0u, 0u, 0u};
+        }
+    };
+    std::vector<float> answers(queries.size());
+    std::vector<double> cut_times, ratios, stream_ratios;
+    for (int run = 0; run < runs; ++run) {
+        const double cut = seconds([&] { shade_all(work, oracle); });
+        set_up();
+        const double replay = seconds([&] {
+            for (RTCRay& ray : rays) {
+                RTCIntersectContext context;
+                rtcInitIntersectContext(&context);
+                rtcOccluded1(work.embree_scene(), &context, &ray);
+            }
+        });
+        const double stream = seconds([&] {
+            std::size_t begin = 0;
+            for (const std::size_t end : batch_ends) {
+                oracle.many(std::span<const VisibilityQuery>(queries).subspan(begin, end - begin),
+                            std::span(answers).subspan(begin, end - begin));
+                begin = end;
+            }
+        });
+        cut_times.push_back(cut);
+        ratios.push_back(cut / replay);
+        stream_ratios.push_back(stream / replay);
+    }
+    row.seconds = median(cut_times);
+    row.ratio = median(ratios);
+    row.stream_ratio = median(stream_ratios);
+    row.ns_per_ray = row.seconds * 1e9 / static_cast<double>(sums.queries);
+    row.ns_per_node_outside =
+        row.seconds * (1.0 - row.stream_ratio / row.ratio) * 1e9 / static_cast<double>(sums.nodes);
+
+    if (exhaustive_receivers > 0) {
+        lightcuts::EstimateScratch<glm::vec3> scratch;
+        const std::size_t stride = std::max<std::size_t>(1, row.receivers / exhaustive_receivers);
+        std::size_t shaded = 0;
+        row.exhaustive_seconds = seconds([&] {
+            for (std::size_t i = 0; i < row.receivers; i += stride, ++shaded) {
+                lightcuts::exhaustive(work.forest(), work.receivers()[i], oracle, scratch);
+            }
+        });
+        row.exhaustive_seconds *= count / static_cast<double>(shaded);
+        row.exhaustive_ratio = row.exhaustive_seconds / row.seconds;
+    }
+    return row;
+}
+
+nlohmann::json to_json(const Row& r) {
+    return {{"scene", r.scene},
+            {"lights", r.lights},
+            {"receivers", r.receivers},
+            {"cut_size", r.cut_size},
+            {"shadow_rays", r.rays},
+            {"quick_bounds", r.quick_bounds},
+            {"tight_bounds", r.tight_bounds},
+            {"seconds", r.seconds},
+            {"time_over_own_rays", r.ratio},
+            {"streams_over_own_rays", r.stream_ratio},
+            {"ns_per_ray", r.ns_per_ray},
+            {"ns_per_node_outside_rays", r.ns_per_node_outside},
+            {"exhaustive_seconds", r.exhaustive_seconds},
+            {"exhaustive_over_lightcuts", r.exhaustive_ratio}};
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    std::string only;
+    int width = 160, height = 120, runs = 5;
+    std::size_t exhaustive_receivers = 200;
+    CLI::App app{"Time of lightcuts against the time of tracing the same shadow rays"};
+    app.add_option("--only", only, "measure only scenes whose name contains this");
+    app.add_option("--width", width, "of the picture, pixels");
+    app.add_option("--height", height, "of the picture, pixels");
+    app.add_option("--runs", runs, "medians are over this many")->check(CLI::PositiveNumber);
+    app.add_option("--exhaustive", exhaustive_receivers, "points for the exhaustive sum; 0: none");
+    CLI11_PARSE(app, argc, argv);
+
+    struct Case {
+        const char* scene;
+        std::uint32_t area_points;
+    };
+    const std::vector<Case> cases = {
+        {"builtin:hall", 1},    {"builtin:hall", 4},    {"builtin:hall", 8},
+        {"builtin:hall", 16},   {"builtin:hall", 64},   {"builtin:hall", 256},
+        {"builtin:hall", 1024}, {"builtin:hall", 4096}, {"builtin:omni?lights=3000", 0},
+        {"builtin:omni?lights=30000", 0}, {"builtin:omni?lights=300000", 0},
+        {"builtin:directional?lights=3000", 0}, {"builtin:directional?lights=30000", 0},
+        {"builtin:directional?lights=300000", 0}, {"builtin:surfaces?lights=3000", 0},
+        {"builtin:surfaces?lights=30000", 0}, {"builtin:surfaces?lights=300000", 0},
+        {"builtin:surfaces?lights=30000&rotated=0", 0}};
+    nlohmann::json rows = nlohmann::json::array();
+    std::printf("%-42s %8s %7s %7s %7s %7s %7s %7s %8s %8s %9s\n", "scene", "lights", "cut", "rays", "quick", "tight",
+                "/rays", "stream", "ns/ray", "ns/node", "/exhaust.");
+    for (const Case& c : cases) {
+        const std::string name = std::string(c.scene) + (c.area_points > 0 ? " x" + std::to_string(c.area_points) : "");
+        if (name.find(only) == std::string::npos) continue;
+        const Row r = measure(c.scene, c.area_points, width, height, runs, exhaustive_receivers);
+        std::printf("%-42s %8zu %7.1f %7.1f %7.1f %7.1f %7.3f %7.3f %8.0f %8.0f %9.2f\n", name.c_str(), r.lights,
+                    r.cut_size, r.rays, r.quick_bounds, r.tight_bounds, r.ratio, r.stream_ratio, r.ns_per_ray,
+                    r.ns_per_node_outside, r.exhaustive_ratio);
+        std::fflush(stdout);
+        rows.push_back(to_json(r));
+    }
+    std::ofstream("lightcut.json") << rows.dump(2) << "\n";
+}

@@ -1,0 +1,142 @@
+/// Size of cuts by the library's bounds over that by exact ones: what tighter bounds could still save. Prints a table
+/// and writes tightness.json.
+
+#include <array>
+#include <cstdio>
+#include <fstream>
+
+#include <CLI/CLI.hpp>
+#include <lightcuts/material/terms.hpp>
+#include <nlohmann/json.hpp>
+
+#include "workload.hpp"
+
+namespace {
+
+using namespace benchmark;
+
+/// Bounds that no valid ones can beat: the largest terms that any light of the cluster has at the receiver.
+class ExactBounds {
+public:
+    static constexpr bool two_stages = false;
+
+    explicit ExactBounds(const Forest& forest) : forest_(forest) {}
+
+    /// Evaluates every light at `receiver`, to which later bounds refer.
+    void look_from(const Receiver& receiver) {
+        forest_.for_each([&](std::uint32_t kind, const auto& tree) {
+            const lightcuts::ClusterTree& topology = tree.topology();
+            std::vector<glm::vec3>& largest = largest_[kind];
+            largest.resize(topology.size());
+            for (std::uint32_t n = 0; n < topology.size(); ++n) {
+                largest[n] = topology.is_leaf(n)
+                                 ? lightcuts::unshadowed_terms(receiver, tree.lights()[topology.item(n)])
+                                 : glm::max(largest[topology.left(n)], largest[topology.right(n)]);
+            }
+        });
+    }
+
+    template <class M, class C>
+    glm::vec3 quick(const M&, const C& cluster, const glm::vec3&) const {
+        glm::vec3 bound(0.0f);
+        forest_.for_each([&](std::uint32_t kind, const auto& tree) {
+            if constexpr (std::is_same_v<const C*, decltype(tree.clusters().data())>) {
+                bound = largest_[kind][static_cast<std::size_t>(&cluster - tree.clusters().data())];
+            }
+        });
+        return bound;
+    }
+
+private:
+    const Forest& forest_;
+    std::array<std::vector<glm::vec3>, Forest::kinds> largest_;
+};
+
+/// Cut sizes, averaged over receivers.
+struct Row {
+    std::string scene;
+    std::size_t lights = 0, receivers = 0;
+    double exact = 0, two_stages = 0, separate = 0;
+    double median_ratio = 0;  ///< of two_stages / exact over the receivers
+};
+
+Row measure(const std::string& scene, std::uint32_t area_points, int width, int height, std::size_t max_cut) {
+    const Workload work(scene, area_points, width, height);
+    const lightcuts::EmbreeOracle oracle = work.oracle();
+    lightcuts::LightcutOptions options;
+    options.max_cut = max_cut;
+    lightcuts::LightcutScratch<glm::vec3> scratch;
+    const auto cut_size = [&](const Receiver& receiver, const auto& policy) {
+        lightcuts::CutResult<glm::vec3> result;
+        lightcuts::shade(work.forest(), std::span(&receiver, 1), oracle, std::span(&result, 1), scratch, options,
+                         policy);
+        return static_cast<double>(result.cut_size);
+    };
+    Row row;
+    row.scene = scene;
+    row.lights = work.light_count();
+    row.receivers = work.receivers().size();
+    const auto count = static_cast<double>(row.receivers);
+    ExactBounds exact(work.forest());
+    std::vector<double> ratios;
+    for (const Receiver& receiver : work.receivers()) {
+        exact.look_from(receiver);
+        const double least = cut_size(receiver, exact);
+        const double ours = cut_size(receiver, lightcuts::TwoStageBounds{});
+        row.exact += least / count;
+        row.two_stages += ours / count;
+        row.separate += cut_size(receiver, lightcuts::SeparateBounds{}) / count;
+        ratios.push_back(ours / least);
+    }
+    row.median_ratio = median(ratios);
+    return row;
+}
+
+nlohmann::json to_json(const Row& r) {
+    return {{"scene", r.scene},
+            {"lights", r.lights},
+            {"receivers", r.receivers},
+            {"cut_size_exact", r.exact},
+            {"cut_size_default", r.two_stages},
+            {"cut_size_separate", r.separate},
+            {"default_over_exact", r.two_stages / r.exact},
+            {"default_over_exact_median", r.median_ratio},
+            {"separate_over_exact", r.separate / r.exact}};
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    std::string only;
+    int width = 40, height = 30;
+    std::size_t max_cut = 0;
+    CLI::App app{"Size of cuts by the library's bounds over that by exact ones"};
+    app.add_option("--only", only, "measure only scenes whose name contains this");
+    app.add_option("--width", width, "of the picture, pixels");
+    app.add_option("--height", height, "of the picture, pixels");
+    app.add_option("--max-cut", max_cut, "most clusters in a cut; 0: unlimited");
+    CLI11_PARSE(app, argc, argv);
+
+    struct Case {
+        const char* scene;
+        std::uint32_t area_points;
+    };
+    const std::vector<Case> cases = {{"builtin:hall", 64},
+                                     {"builtin:omni?lights=10000", 0},
+                                     {"builtin:directional?lights=10000", 0},
+                                     {"builtin:surfaces?lights=10000&rotated=0", 0},
+                                     {"builtin:surfaces?lights=10000", 0}};
+    nlohmann::json rows = nlohmann::json::array();
+    std::printf("%-40s %8s %8s %8s %8s %8s | %8s %8s %8s\n", "mean cut size by", "lights", "points", "exact", "default",
+                "separate", "def./ex.", "median", "sep./ex.");
+    for (const Case& c : cases) {
+        const std::string name = std::string(c.scene) + (c.area_points > 0 ? " x" + std::to_string(c.area_points) : "");
+        if (name.find(only) == std::string::npos) continue;
+        const Row r = measure(c.scene, c.area_points, width, height, max_cut);
+        std::printf("%-40s %8zu %8zu %8.1f %8.1f %8.1f | %8.3f %8.3f %8.3f\n", name.c_str(), r.lights, r.receivers,
+                    r.exact, r.two_stages, r.separate, r.two_stages / r.exact, r.median_ratio, r.separate / r.exact);
+        std::fflush(stdout);
+        rows.push_back(to_json(r));
+    }
+    std::ofstream("tightness.json") << rows.dump(2) << "\n";
+}

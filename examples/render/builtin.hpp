@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstddef>
+
+#include "scene.hpp"
+
+namespace render {
+
+/// A hall of 20 x 6 x 12 m with columns, beams, a partition, books, vases and plants, about 50,000 triangles. Its
+/// lights are 72 square ceiling panels of 0.6 m, emissive surfaces of two triangles each.
+Scene builtin_hall();
+
+/// A garden at night: `lights` fireflies, omni lights in the air between trees, rocks and lanterns.
+Scene builtin_omni(std::size_t lights);
+
+/// A field of clutter under a sky of `lights` directional lights, brighter around the sun.
+Scene builtin_directional(std::size_t lights);
+
+/// A furnished room with `lights` oriented lights spread over all its surfaces, as light reflected once would be.
+/// `rotated`: turned about an oblique axis, so that nothing in it is along the coordinate axes.
+Scene builtin_surfaces(std::size_t lights, bool rotated);
+
+}  // namespace render

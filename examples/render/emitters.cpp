@@ -1,0 +1,113 @@
+#include "emitters.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <string>
+#include <tuple>
+#include <utility>
+
+#include <glm/vec3.hpp>
+#include <lightcuts/core/invalid_input.hpp>
+
+#include "area_samples.hpp"
+
+namespace render {
+namespace {
+
+constexpr std::size_t most_lights = 100'000'000;
+
+/// Distance of a light from its surface, as a share of its largest coordinate and of the surface's size: well above
+/// the rounding of an intersection, far below what can be seen.
+constexpr float offset_share = 0x1p-16f;
+
+bool is_emissive(const Scene& scene, std::size_t triangle) {
+    return scene.materials[scene.triangle_material[triangle]].emission != glm::vec3(0.0f);
+}
+
+/// Sets that can be united.
+class DisjointSets {
+public:
+    explicit DisjointSets(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0u); }
+
+    std::uint32_t find(std::uint32_t i) {
+        while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+        return i;
+    }
+    void unite(std::uint32_t a, std::uint32_t b) {
+        a = find(a);
+        b = find(b);
+        parent_[std::max(a, b)] = std::min(a, b);  // the root is the set's first member
+    }
+
+private:
+    std::vector<std::uint32_t> parent_;
+};
+
+/// A corner of an emissive triangle. Adding 0 makes -0 and 0 the same.
+struct Corner {
+    std::uint32_t material;
+    glm::vec3 position;
+    std::uint32_t member;
+
+    auto key() const { return std::tuple(material, position.x + 0.0f, position.y + 0.0f, position.z + 0.0f); }
+};
+
+}  // namespace
+
+std::vector<EmissiveSurface> emissive_surfaces(const Scene& scene) {
+    std::vector<std::uint32_t> emissive;
+    std::vector<Corner> corners;
+    for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
+        if (!is_emissive(scene, t)) continue;
+        const auto member = static_cast<std::uint32_t>(emissive.size());
+        for (int i = 0; i < 3; ++i) {
+            corners.push_back({scene.triangle_material[t], scene.positions[scene.triangles[t][i]], member});
+        }
+        emissive.push_back(static_cast<std::uint32_t>(t));
+    }
+    std::sort(corners.begin(), corners.end(), [](const Corner& a, const Corner& b) { return a.key() < b.key(); });
+    DisjointSets sets(emissive.size());
+    for (std::size_t i = 1; i < corners.size(); ++i) {
+        if (corners[i].key() == corners[i - 1].key()) sets.unite(corners[i].member, corners[i - 1].member);
+    }
+
+    std::vector<EmissiveSurface> surfaces;
+    std::vector<std::size_t> surface_of(emissive.size());
+    for (std::uint32_t i = 0; i < emissive.size(); ++i) {
+        const std::uint32_t root = sets.find(i);
+        if (root == i) {
+            surface_of[i] = surfaces.size();
+            surfaces.push_back({scene.triangle_material[emissive[i]], {}, 0});
+        }
+        EmissiveSurface& surface = surfaces[surface_of[root]];
+        surface.triangles.push_back(emissive[i]);
+        surface.area += triangle_area(scene, emissive[i]);
+    }
+    return surfaces;
+}
+
+void add_emitter_lights(Scene& scene, std::size_t points) {
+    if (points == 0) return;
+    const std::vector<EmissiveSurface> surfaces = emissive_surfaces(scene);
+    if (2 * surfaces.size() > most_lights / points) {
+        throw lightcuts::invalid_input(scene.name + ": " + std::to_string(points) + " points on each of " +
+                                       std::to_string(surfaces.size()) +
+                                       " emissive surfaces are too many lights; lower --area-points");
+    }
+    for (const EmissiveSurface& surface : surfaces) {
+        const bool both_sides = scene.materials[surface.material].double_sided;
+        const auto size = static_cast<float>(std::sqrt(surface.area));
+        for (const EmissionSample& sample : spread_by_emission(scene, surface.triangles, points)) {
+            const glm::vec3 p = sample.place.position;
+            const glm::vec3 n = sample.place.normal;
+            const float offset = offset_share * std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z), size});
+            scene.oriented.push_back({p + offset * n, n, sample.intensity});
+            if (both_sides) scene.oriented.push_back({p - offset * n, -n, sample.intensity});
+        }
+    }
+}
+
+}  // namespace render

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "picture.hpp"
+
+namespace render {
+
+/// How far a picture is from a reference. Infinite against a black reference, unless both are black.
+struct ErrorFigures {
+    double relative_rmse = 0;  ///< |picture - reference|_2 / |reference|_2 over all channels
+    double relative_l1 = 0;    ///< likewise with the 1-norm
+    /// Of |L - L_ref| / L_ref over pixels, L being luminance; pixels with L_ref = 0 are left out.
+    double max_relative = 0;
+    double p999_relative = 0;  ///< 99.9th percentile, interpolated between neighbours
+};
+
+/// throws: invalid_input if the sizes differ.
+ErrorFigures compare(const Picture& picture, const Picture& reference);
+
+/// A picture of each pixel's relative error of luminance: black at 0, through blue, red and yellow to white at
+/// `full_scale` and above. Values in [0, 1], before the sRGB curve. throws: invalid_input if the sizes differ.
+std::vector<glm::vec3> heat_map(const Picture& picture, const Picture& reference, double full_scale);
+
+}  // namespace render

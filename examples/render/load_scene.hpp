@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scene.hpp"
+
+namespace render {
+
+/// Reads a scene and checks it: a glTF 2.0 file (.gltf, .glb), an OBJ file (.obj), or `builtin:NAME`, optionally
+/// with `?lights=N` and, for `surfaces`, `&rotated=0`. Emissive surfaces have no lights yet: see add_emitter_lights.
+/// throws: invalid_input, one line: what is wrong, where, what to do.
+Scene load_scene(std::string_view path_or_builtin);
+
+/// The names that may follow `builtin:`.
+std::vector<std::string> builtin_names();
+
+}  // namespace render

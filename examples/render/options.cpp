@@ -1,0 +1,277 @@
+#include "options.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <string_view>
+#include <system_error>
+
+#include <CLI/CLI.hpp>
+#include <glm/geometric.hpp>
+
+namespace render {
+
+namespace {
+
+constexpr int largest_side = 1 << 16;
+constexpr long long largest_picture = 1ll << 27;  ///< pixels
+
+const std::vector<std::string> methods = {"exhaustive", "lightcuts", "ward", "power"};
+const std::vector<std::string> later_methods = {"tree-sampling",    "adaptive-splitting", "stochastic-lightcuts",
+                                                "multidimensional", "reconstruction",     "row-column"};
+const std::vector<std::string> later_options = {"--env",      "--env-lights",  "--env-scale",  "--env-rotate",
+                                                "--sun-sky",  "--turbidity",   "--sky-lights", "--indirect",
+                                                "--clamp",    "--clamp-ratio", "--instants",   "--shutter",
+                                                "--aperture", "--focus",       "--fog"};
+const std::vector<std::string> builders = {"binned", "agglomerate", "longest-axis"};
+
+bool contains(const std::vector<std::string>& words, const std::string& word) {
+    return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+std::string listed(const std::vector<std::string>& words) {
+    std::string text;
+    for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+    return text;
+}
+
+/// All of `text` as a finite number.
+template <class Number>
+std::optional<Number> to_number(std::string_view text) {
+    Number value{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+    if constexpr (std::is_floating_point_v<Number>) {
+        if (!std::isfinite(value)) return std::nullopt;
+    }
+    return value;
+}
+
+[[noreturn]] void refuse(const std::string& option, const std::string& value, const std::string& wanted) {
+    throw usage_error(option + " " + value + ": expected " + wanted);
+}
+
+template <class Number>
+Number number_in(const std::string& option, const std::string& text, Number lowest, Number highest,
+                 const std::string& wanted) {
+    const auto value = to_number<Number>(text);
+    if (!value || *value < lowest || *value > highest) refuse(option, text, wanted);
+    return *value;
+}
+
+std::vector<std::string> split(const std::string& text, char separator) {
+    std::vector<std::string> parts(1);
+    for (const char c : text) {
+        if (c == separator) {
+            parts.emplace_back();
+        } else {
+            parts.back() += c;
+        }
+    }
+    return parts;
+}
+
+glm::vec3 vector_of(const std::string& option, const std::string& text) {
+    const std::vector<std::string> parts = split(text, ',');
+    glm::vec3 v(0.0f);
+    for (int i = 0; i < 3; ++i) {
+        const auto value = parts.size() == 3 ? to_number<float>(parts[static_cast<std::size_t>(i)]) : std::nullopt;
+        if (!value) refuse(option, text, "three numbers X,Y,Z");
+        v[i] = *value;
+    }
+    return v;
+}
+
+void set_size(Options& options, const std::string& text) {
+    const std::vector<std::string> parts = split(text, 'x');
+    const auto width = parts.size() == 2 ? to_number<int>(parts[0]) : std::nullopt;
+    const auto height = parts.size() == 2 ? to_number<int>(parts[1]) : std::nullopt;
+    if (!width || !height || *width < 1 || *height < 1) {
+        refuse("--size", text, "WxH with a width and a height of at least one pixel, such as 640x480");
+    }
+    if (*width > largest_side || *height > largest_side ||
+        static_cast<long long>(*width) * static_cast<long long>(*height) > largest_picture) {
+        refuse("--size", text,
+               "at most " + std::to_string(largest_side) + " pixels a side and " + std::to_string(largest_picture) +
+                   " in all");
+    }
+    options.width = *width;
+    options.height = *height;
+}
+
+void set_method(Options& options, const std::string& name) {
+    if (contains(later_methods, name)) {
+        throw usage_error("--method " + name + ": comes with a later version; this one has " + listed(methods));
+    }
+    if (!contains(methods, name)) refuse("--method", name, "one of " + listed(methods));
+    options.method = name;
+}
+
+void set_aovs(Options& options, const std::string& text) {
+    for (const std::string& name : split(text, ',')) {
+        if (!contains(aov_names(), name)) refuse("--aov", text, "a comma-separated list of " + listed(aov_names()));
+        if (!options.has_aov(name)) options.aovs.push_back(name);
+    }
+}
+
+void set_output(Options& options, const std::string& text) {
+    const std::filesystem::path path(text);
+    if (path.extension() == ".png" || path.extension() == ".json") {
+        refuse("--output", text, "the name of an OpenEXR file; .png and .json of the same stem are written beside it");
+    }
+    if (!path.has_filename()) refuse("--output", text, "a file name");
+    options.output = path;
+}
+
+void check_together(const Options& options) {
+    if (options.eye.has_value() != options.target.has_value()) {
+        throw usage_error(std::string(options.eye ? "--eye needs --target" : "--target needs --eye") + " X,Y,Z too");
+    }
+    if (!options.camera.empty() && options.eye) {
+        throw usage_error("--camera and --eye name two cameras: give one of them");
+    }
+    if (options.up && !options.eye) throw usage_error("--up needs --eye and --target");
+    if (options.eye && *options.eye == *options.target) {
+        throw usage_error("--target is the same point as --eye: give two that differ");
+    }
+    if (options.up) {
+        const glm::vec3 across = glm::cross(*options.target - *options.eye, *options.up);
+        if (across == glm::vec3(0.0f)) throw usage_error("--up points along the view: give another direction");
+    }
+}
+
+}  // namespace
+
+bool Options::has_aov(const std::string& name) const { return contains(aovs, name); }
+
+const std::vector<std::string>& aov_names() {
+    static const std::vector<std::string> names = {"cut_size", "shadow_rays", "error_bound", "depth", "normal"};
+    return names;
+}
+
+std::string one_line(const std::string& text) {
+    std::string line;
+    for (const char c : text) {
+        const bool space = c == '\n' || c == '\r' || c == '\t' || c == ' ';
+        if (!space) {
+            line += c;
+        } else if (!line.empty() && line.back() != ' ') {
+            line += ' ';
+        }
+    }
+    while (!line.empty() && line.back() == ' ') line.pop_back();
+    return line;
+}
+
+Options parse_options(int argc, const char* const* argv) {
+    constexpr float huge = std::numeric_limits<float>::max();
+    constexpr std::uint32_t many = std::numeric_limits<std::uint32_t>::max() / 4;
+
+    Options options;
+    CLI::App app("Renders a scene lit by many lights.", "lightcuts-render");
+    app.set_help_flag("-h,--help", "print this text");
+    bool version = false;
+    bool list_scenes = false;
+
+    const auto text = [&app](const std::string& names, const std::string& type, const std::string& help,
+                             std::function<void(const std::string&)> set) {
+        return app.add_option_function<std::string>(names, std::move(set), help)->type_name(type);
+    };
+    const auto count = [&text](const std::string& name, const std::string& help, std::uint32_t lowest,
+                               std::uint32_t highest, std::uint32_t& value) {
+        const std::string wanted = "a whole number from " + std::to_string(lowest) + " to " + std::to_string(highest);
+        text(name, "N", help,
+             [=, &value](const std::string& s) { value = number_in<std::uint32_t>(name, s, lowest, highest, wanted); });
+    };
+
+    app.add_option("SCENE", options.scene, "glTF 2.0 (.gltf, .glb), OBJ, or builtin:NAME (builtin:hall)");
+    app.add_flag("--list-scenes", list_scenes, "print the built-in scenes");
+    app.add_flag("--version", version, "print the version");
+
+    text("-o,--output", "FILE", "OpenEXR picture (render.exr); a .png and a .json go beside it",
+         [&](const std::string& s) { set_output(options, s); });
+    text("--size", "WxH", "pixels (640x480)", [&](const std::string& s) { set_size(options, s); });
+    text("--spp", "N", "eye rays a pixel (1)", [&](const std::string& s) {
+        options.spp = number_in<int>("--spp", s, 1, 1 << 16, "a whole number from 1 to 65536");
+    });
+    text("--camera", "NAME", "one of the scene's cameras (its first)",
+         [&](const std::string& s) { options.camera = s; });
+    text("--eye", "X,Y,Z", "camera position", [&](const std::string& s) { options.eye = vector_of("--eye", s); });
+    text("--target", "X,Y,Z", "point the camera looks at",
+         [&](const std::string& s) { options.target = vector_of("--target", s); });
+    text("--up", "X,Y,Z", "upwards in the picture (0,1,0)",
+         [&](const std::string& s) { options.up = vector_of("--up", s); });
+    text("--fov", "DEG", "vertical field of view (45 with --eye, else the camera's)", [&](const std::string& s) {
+        options.fov = number_in("--fov", s, 1e-3f, 179.0f, "degrees between 0.001 and 179");
+    });
+    text("--method", "NAME", listed(methods) + " (lightcuts)", [&](const std::string& s) { set_method(options, s); });
+    text("--error-ratio", "R", "largest error of a cluster as a share of the total (0.02)", [&](const std::string& s) {
+        options.error_ratio = number_in("--error-ratio", s, 0.0f, huge, "a number of at least 0");
+    });
+    count("--max-cut", "largest cut (1000); 0: unlimited; never below the number of trees", 0, many, options.max_cut);
+    count("--representatives", "representatives of each cluster (1)", 1, 32, options.representatives);
+    text("--adaptation", "VALUE|auto", "radiance the eye is adapted to; a tenth is added to the total (0)",
+         [&](const std::string& s) {
+             options.adaptation.reset();
+             if (s != "auto") {
+                 options.adaptation = number_in("--adaptation", s, 0.0f, huge, "a number of at least 0, or auto");
+             }
+         });
+    count("--samples", "light samples of the sampling methods (64)", 1, many, options.samples);
+    text("--ward-threshold", "R", "share of the total that Ward's method may leave untested (0.1)",
+         [&](const std::string& s) {
+             options.ward_threshold = number_in("--ward-threshold", s, 0.0f, huge, "a number of at least 0");
+         });
+    text("--builder", "NAME", "how light trees are built: " + listed(builders) + " (" + options.builder + ")",
+         [&](const std::string& s) {
+             if (!contains(builders, s)) refuse("--builder", s, "one of " + listed(builders));
+             options.builder = s;
+         });
+    text("--lights", "FILE", "more lights, CSV: kind,x,y,z,dx,dy,dz,r,g,b", [&](const std::string& s) {
+        if (s.empty()) refuse("--lights", "''", "a file name");
+        options.lights = s;
+    });
+    count("--area-points", "lights per emissive surface (64); 0 leaves them out", 0, many, options.area_points);
+    text("--materials", "full|diffuse", "diffuse: Lambert with the base colour everywhere (full)",
+         [&](const std::string& s) {
+             if (s != "full" && s != "diffuse") refuse("--materials", s, "full or diffuse");
+             options.diffuse_materials = s == "diffuse";
+         });
+    text("--reference", "FILE", "OpenEXR picture to report the error against", [&](const std::string& s) {
+        if (s.empty()) refuse("--reference", "''", "a file name");
+        options.reference = s;
+    });
+    text("--aov", "LIST", "further layers, comma-separated: " + listed(aov_names()),
+         [&](const std::string& s) { set_aovs(options, s); });
+    text("--threads", "N", "threads (all)", [&](const std::string& s) {
+        options.threads = number_in<int>("--threads", s, 1, 4096, "a whole number from 1 to 4096");
+    });
+    text("--seed", "N", "of all random choices (1)", [&](const std::string& s) {
+        options.seed = number_in<std::uint64_t>("--seed", s, 0, std::numeric_limits<std::uint64_t>::max(),
+                                                "a whole number of at least 0");
+    });
+    app.add_flag("--quiet", options.quiet, "print nothing but errors");
+
+    for (const std::string& name : later_options) {
+        const auto refuse_later = [name](const std::string&) {
+            throw usage_error(name + ": comes with a later version; leave it out");
+        };
+        text(name, "", "", refuse_later)->expected(0, 1)->group("");
+    }
+
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::CallForHelp&) {
+        options.action = Options::Action::help;
+        options.help = app.help();
+        return options;
+    } catch (const CLI::ParseError& e) { throw usage_error(one_line(e.what())); }
+    if (version) options.action = Options::Action::version;
+    if (list_scenes) options.action = Options::Action::list_scenes;
+    check_together(options);
+    return options;
+}
+
+}  // namespace render

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+namespace render {
+
+/// A command line that cannot be obeyed; `what()` is one line. Exit status 2.
+class usage_error : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
+/// The renderer's command line with its defaults.
+struct Options {
+    enum class Action { render, help, version, list_scenes };
+
+    Action action = Action::render;
+    std::string help;  ///< the text to print when the action is `help`
+
+    std::string scene = "builtin:hall";  ///< a file, or builtin:NAME
+    std::filesystem::path output = "render.exr";
+    int width = 640;
+    int height = 480;
+    int spp = 1;
+
+    std::string camera;            ///< name of one of the scene's cameras; empty: its first
+    std::optional<glm::vec3> eye;  ///< with `target`: a camera of the user's
+    std::optional<glm::vec3> target;
+    std::optional<glm::vec3> up;
+    std::optional<float> fov;  ///< vertical, degrees
+
+    std::string method = "lightcuts";        ///< exhaustive, lightcuts, ward or power
+    float error_ratio = 0.02f;               ///< a cluster is refined while its bound exceeds this share of the total
+    std::uint32_t max_cut = 1000;            ///< 0: unlimited
+    std::uint32_t representatives = 1;       ///< per node of a tree, 1 to 32
+    std::optional<float> adaptation = 0.0f;  ///< radiance the eye is adapted to; empty: measured (`auto`)
+    std::uint32_t samples = 64;              ///< of the sampling methods
+    float ward_threshold = 0.1f;
+    std::string builder = "binned";  ///< binned, agglomerate or longest-axis
+
+    std::filesystem::path lights;     ///< CSV with more lights; empty: none
+    std::uint32_t area_points = 64;   ///< lights per emissive surface; 0: none
+    bool diffuse_materials = false;   ///< everything is Lambert with its base colour
+    std::filesystem::path reference;  ///< picture to compare with; empty: none
+    std::vector<std::string> aovs;    ///< further layers, each of `aov_names()`
+    int threads = 0;                  ///< 0: all
+    std::uint64_t seed = 1;
+    bool quiet = false;
+
+    bool has_aov(const std::string& name) const;
+};
+
+const std::vector<std::string>& aov_names();
+
+/// throws: usage_error for an unknown option, a bad value, or an option that a later version will bring.
+Options parse_options(int argc, const char* const* argv);
+
+/// The words as one line; for messages of others, which may have several.
+std::string one_line(const std::string& text);
+
+}  // namespace render

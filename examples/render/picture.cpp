@@ -1,0 +1,177 @@
+#include "picture.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <fstream>
+
+#include <ImathBox.h>
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfInputFile.h>
+#include <ImfOutputFile.h>
+#include <glm/common.hpp>
+#include <lightcuts/core/invalid_input.hpp>
+
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#define STB_IMAGE_WRITE_STATIC
+#include <stb_image_write.h>
+
+#include "luminance.hpp"
+
+namespace render {
+
+namespace {
+
+using lightcuts::invalid_input;
+
+constexpr const char* color_names[3] = {"R", "G", "B"};
+
+/// A plane of floats as OpenEXR addresses it. Its interface takes a pointer to non-const for reading and writing.
+Imf::Slice slice(const float* first, int width, std::size_t stride) {
+    auto* base = const_cast<char*>(reinterpret_cast<const char*>(first));
+    return {Imf::FLOAT, base, stride, stride * static_cast<std::size_t>(width)};
+}
+
+float srgb_from_linear(float v) { return v <= 0.0031308f ? 12.92f * v : 1.055f * std::pow(v, 1.0f / 2.4f) - 0.055f; }
+
+void append_bytes(void* context, void* data, int size) {
+    const auto* bytes = static_cast<const char*>(data);
+    static_cast<std::vector<char>*>(context)->insert(static_cast<std::vector<char>*>(context)->end(), bytes,
+                                                     bytes + size);
+}
+
+}  // namespace
+
+Picture::Picture(int w, int h)
+    : width(w), height(h), pixels(static_cast<std::size_t>(w) * static_cast<std::size_t>(h), glm::vec3(0.0f)) {}
+
+void Picture::add_channel(const std::string& name) { channels.push_back({name, std::vector<float>(size(), 0.0f)}); }
+
+const Picture::Channel* Picture::find(const std::string& name) const {
+    const auto at = std::find_if(channels.begin(), channels.end(), [&](const Channel& c) { return c.name == name; });
+    return at == channels.end() ? nullptr : &*at;
+}
+
+Picture::Channel* Picture::find(const std::string& name) {
+    return const_cast<Channel*>(static_cast<const Picture*>(this)->find(name));
+}
+
+void write_exr(const std::filesystem::path& path, const Picture& picture) {
+    try {
+        Imf::Header header(picture.width, picture.height);
+        header.compression() = Imf::ZIP_COMPRESSION;
+        Imf::FrameBuffer buffer;
+        for (int c = 0; c < 3; ++c) {
+            header.channels().insert(color_names[c], Imf::Channel(Imf::FLOAT));
+            buffer.insert(color_names[c], slice(&picture.pixels[0][c], picture.width, sizeof(glm::vec3)));
+        }
+        for (const Picture::Channel& channel : picture.channels) {
+            header.channels().insert(channel.name, Imf::Channel(Imf::FLOAT));
+            buffer.insert(channel.name, slice(channel.values.data(), picture.width, sizeof(float)));
+        }
+        Imf::OutputFile file(path.c_str(), header);
+        file.setFrameBuffer(buffer);
+        file.writePixels(picture.height);
+    } catch (const std::exception& e) {
+        throw invalid_input(path.string() + ": cannot be written as OpenEXR (" + e.what() + ")");
+    }
+}
+
+Picture read_exr(const std::filesystem::path& path) {
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(path, ignored)) {
+        throw invalid_input(path.string() + ": no such file; give an OpenEXR picture");
+    }
+    try {
+        Imf::InputFile file(path.c_str());
+        const Imath::Box2i window = file.header().dataWindow();
+        Picture picture(window.max.x - window.min.x + 1, window.max.y - window.min.y + 1);
+        const Imf::ChannelList& in_file = file.header().channels();
+        const bool grey = !in_file.findChannel("R") && in_file.findChannel("Y");
+
+        // OpenEXR addresses pixels from the origin of coordinates, not from the window's corner.
+        const auto from_origin = [&](const Imf::Slice& s) {
+            Imf::Slice moved = s;
+            moved.base -= static_cast<std::ptrdiff_t>(s.xStride) * window.min.x +
+                          static_cast<std::ptrdiff_t>(s.yStride) * window.min.y;
+            return moved;
+        };
+        Imf::FrameBuffer buffer;
+        for (int c = 0; c < 3; ++c) {
+            if (!in_file.findChannel(grey ? "Y" : color_names[c])) throw std::runtime_error("no R, G and B");
+            if (grey && c > 0) break;
+            buffer.insert(grey ? "Y" : color_names[c],
+                          from_origin(slice(&picture.pixels[0][c], picture.width, sizeof(glm::vec3))));
+        }
+        for (auto channel = in_file.begin(); channel != in_file.end(); ++channel) {
+            const std::string name = channel.name();
+            if (buffer.findSlice(name)) continue;
+            if (channel.channel().xSampling != 1 || channel.channel().ySampling != 1) continue;
+            picture.add_channel(name);
+        }
+        for (const Picture::Channel& channel : picture.channels) {
+            buffer.insert(channel.name, from_origin(slice(channel.values.data(), picture.width, sizeof(float))));
+        }
+        file.setFrameBuffer(buffer);
+        file.readPixels(window.min.y, window.max.y);
+        if (grey) {
+            for (glm::vec3& pixel : picture.pixels) pixel = glm::vec3(pixel.x);
+        }
+        return picture;
+    } catch (const std::exception& e) {
+        throw invalid_input(path.string() + ": cannot be read as an OpenEXR picture (" + e.what() + ")");
+    }
+}
+
+void write_png(const std::filesystem::path& path, int width, int height, const std::vector<glm::vec3>& colors) {
+    std::vector<std::uint8_t> bytes;
+    bytes.reserve(3 * colors.size());
+    for (const glm::vec3& color : colors) {
+        for (int c = 0; c < 3; ++c) {
+            const float encoded = srgb_from_linear(glm::clamp(color[c], 0.0f, 1.0f));
+            bytes.push_back(static_cast<std::uint8_t>(std::lround(255.0f * encoded)));
+        }
+    }
+    std::vector<char> encoded;
+    const bool good = stbi_write_png_to_func(append_bytes, &encoded, width, height, 3, bytes.data(), 3 * width) != 0;
+    std::ofstream file(path, std::ios::binary);
+    file.write(encoded.data(), static_cast<std::streamsize>(encoded.size()));
+    file.close();
+    if (!good || !file) throw invalid_input(path.string() + ": cannot be written; is the disk full?");
+}
+
+std::vector<glm::vec3> tone_mapped(const Picture& picture) {
+    std::vector<float> bright;
+    double log_sum = 0;
+    for (const glm::vec3& pixel : picture.pixels) {
+        const float l = luminance(pixel);
+        if (!(l > 0.0f) || !std::isfinite(l)) continue;
+        bright.push_back(l);
+        log_sum += std::log(static_cast<double>(l));
+    }
+    if (bright.empty()) return std::vector<glm::vec3>(picture.size(), glm::vec3(0.0f));
+
+    const double exposure = 0.18 / std::exp(log_sum / static_cast<double>(bright.size()));
+    const auto nearly_brightest = bright.begin() +
+                                  static_cast<std::ptrdiff_t>(0.995 * static_cast<double>(bright.size() - 1));
+    std::nth_element(bright.begin(), nearly_brightest, bright.end());
+    const double white = std::max(1.0, static_cast<double>(*nearly_brightest) * exposure);
+
+    std::vector<glm::vec3> colors;
+    colors.reserve(picture.size());
+    for (const glm::vec3& pixel : picture.pixels) {
+        glm::vec3 color(0.0f);
+        for (int c = 0; c < 3; ++c) {
+            const double v = static_cast<double>(pixel[c]) * exposure;
+            if (!(v > 0.0)) continue;
+            color[c] = static_cast<float>(std::isfinite(v) ? std::min(1.0, v * (1.0 + v / (white * white)) / (1.0 + v))
+                                                           : 1.0);
+        }
+        colors.push_back(color);
+    }
+    return colors;
+}
+
+}  // namespace render

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+namespace render {
+
+/// Linear radiance per pixel, rows from the top, with further channels of the same size.
+struct Picture {
+    /// One channel, named as in the file: `depth`, or `normal.X` for a layer of several.
+    struct Channel {
+        std::string name;
+        std::vector<float> values;
+    };
+
+    int width = 0;
+    int height = 0;
+    std::vector<glm::vec3> pixels;
+    std::vector<Channel> channels;
+
+    Picture() = default;
+    /// Black. pre: width, height > 0.
+    Picture(int width, int height);
+
+    std::size_t size() const { return pixels.size(); }
+
+    /// Appends a channel of zeros. Invalidates references to channels.
+    void add_channel(const std::string& name);
+
+    /// The channel of that name, or null.
+    const Channel* find(const std::string& name) const;
+    Channel* find(const std::string& name);
+};
+
+/// Writes R, G, B and the channels as 32-bit floats, losslessly compressed. throws: invalid_input with the path.
+void write_exr(const std::filesystem::path& path, const Picture& picture);
+
+/// Reads R, G, B (or Y as grey) and all other channels as floats, whatever their type in the file.
+/// throws: invalid_input with the path when it cannot be read or has no colour.
+Picture read_exr(const std::filesystem::path& path);
+
+/// Writes 8-bit sRGB colours in [0, 1], rows from the top. throws: invalid_input with the path.
+void write_png(const std::filesystem::path& path, int width, int height, const std::vector<glm::vec3>& colors);
+
+/// `picture` as colours in [0, 1] before the sRGB curve: exposed so that its log-average luminance (of pixels that
+/// are not black) becomes a middle grey of 0.18, bright parts compressed per channel by Reinhard's curve with the
+/// 99.5th percentile as white.
+std::vector<glm::vec3> tone_mapped(const Picture& picture);
+
+}  // namespace render

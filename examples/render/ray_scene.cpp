@@ -1,0 +1,154 @@
+#include "ray_scene.hpp"
+
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "luminance.hpp"
+#include "surface_colors.hpp"
+
+namespace render {
+
+namespace {
+
+constexpr unsigned opaque_geometry = 0;
+constexpr unsigned translucent_geometry = 1;
+
+/// Below this a ray counts as blocked: less than a step of an 8-bit picture.
+constexpr float blocked_below = 1e-4f;
+
+/// A shadow ray's context: Embree hands it to the filter, which multiplies the tints.
+struct LightContext {
+    QueryContext embree;
+    glm::vec3 passed{1.0f};
+};
+
+RTCRay make_ray(const glm::vec3& origin, const glm::vec3& direction, float end) {
+    RTCRay ray{};
+    ray.org_x = origin.x;
+    ray.org_y = origin.y;
+    ray.org_z = origin.z;
+    ray.dir_x = direction.x;
+    ray.dir_y = direction.y;
+    ray.dir_z = direction.z;
+    ray.tnear = 0;
+    ray.tfar = end;
+    ray.mask = ~0u;
+    return ray;
+}
+
+void require(RTCDevice device) {
+    const RTCError error = rtcGetDeviceError(device);
+    if (error == RTC_ERROR_NONE) return;
+    throw std::runtime_error(error == RTC_ERROR_OUT_OF_MEMORY
+                                 ? std::string("not enough memory for the ray tracer's hierarchy")
+                                 : "Embree failed with error " + std::to_string(static_cast<int>(error)));
+}
+
+}  // namespace
+
+RayScene::RayScene(const Scene& scene) : source_(scene) {
+    const std::vector<bool> passes = transmissive_materials(scene);
+    for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
+        (passes[scene.triangle_material[t]] ? translucent_ : opaque_).push_back(t);
+    }
+    transmissive_ = !translucent_.empty();
+
+    device_ = rtcNewDevice(nullptr);
+    if (!device_) throw std::runtime_error("Embree cannot be started on this machine");
+    scene_ = rtcNewScene(device_);
+    try {
+        // A high-quality hierarchy would split triangles and report one surface twice to the filters.
+        rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_MEDIUM);
+        if (!opaque_.empty()) add_geometry(opaque_, false);
+        if (!translucent_.empty()) add_geometry(translucent_, true);
+        rtcCommitScene(scene_);
+        require(device_);
+    } catch (...) {
+        rtcReleaseScene(scene_);
+        rtcReleaseDevice(device_);
+        throw;
+    }
+}
+
+RayScene::~RayScene() {
+    rtcReleaseScene(scene_);
+    rtcReleaseDevice(device_);
+}
+
+void RayScene::add_geometry(const std::vector<std::uint32_t>& triangles, bool with_filters) {
+    RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+    auto* positions = static_cast<glm::vec3*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), source_.positions.size()));
+    auto* corners = static_cast<glm::uvec3*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(glm::uvec3), triangles.size()));
+    if (!positions || !corners) {
+        rtcReleaseGeometry(geometry);
+        require(device_);
+    }
+    std::copy(source_.positions.begin(), source_.positions.end(), positions);
+    for (std::size_t i = 0; i < triangles.size(); ++i) corners[i] = source_.triangles[triangles[i]];
+    if (with_filters) {
+        rtcSetGeometryUserData(geometry, this);
+        rtcSetGeometryIntersectFilterFunction(geometry, &RayScene::skip_holes);
+        rtcSetGeometryOccludedFilterFunction(geometry, &RayScene::pass_light);
+    }
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(scene_, geometry, with_filters ? translucent_geometry : opaque_geometry);
+    rtcReleaseGeometry(geometry);
+    require(device_);
+}
+
+std::optional<Hit> RayScene::nearest(const glm::vec3& origin, const glm::vec3& direction) const {
+    RTCRayHit query{};
+    query.ray = make_ray(origin, direction, std::numeric_limits<float>::infinity());
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    QueryContext context;
+    init_context(context);
+    intersect(scene_, context, query);
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+    const auto& triangles = query.hit.geomID == opaque_geometry ? opaque_ : translucent_;
+    return Hit{triangles[query.hit.primID], query.hit.u, query.hit.v, query.ray.tfar};
+}
+
+float RayScene::pass(const glm::vec3& from, const glm::vec3& direction, float end) const {
+    RTCRay ray = make_ray(from, direction, end);
+    LightContext context;
+    init_context(context.embree);
+    occluded(scene_, context.embree, ray);
+    // Embree marks a blocked ray by a negative end.
+    if (ray.tfar < 0) return 0.0f;
+    return transmissive_ ? luminance(context.passed) : 1.0f;
+}
+
+float RayScene::to_point(const glm::vec3& from, const glm::vec3& to) const {
+    return pass(from, to - from, shadow_ray_end);
+}
+
+float RayScene::to_infinity(const glm::vec3& from, const glm::vec3& direction) const {
+    return pass(from, direction, std::numeric_limits<float>::infinity());
+}
+
+void RayScene::skip_holes(const RTCFilterFunctionNArguments* arguments) {
+    const auto& self = *static_cast<const RayScene*>(arguments->geometryUserPtr);
+    for (unsigned i = 0; i < arguments->N; ++i) {
+        if (arguments->valid[i] == 0) continue;
+        const std::uint32_t triangle = self.translucent_[RTCHitN_primID(arguments->hit, arguments->N, i)];
+        const float u = RTCHitN_u(arguments->hit, arguments->N, i);
+        const float v = RTCHitN_v(arguments->hit, arguments->N, i);
+        if (cover_at(self.source_, triangle, u, v) == 0.0f) arguments->valid[i] = 0;
+    }
+}
+
+void RayScene::pass_light(const RTCFilterFunctionNArguments* arguments) {
+    const auto& self = *static_cast<const RayScene*>(arguments->geometryUserPtr);
+    // Only `pass` traces occlusion rays against a scene with filters: one ray a query.
+    if (arguments->valid[0] == 0) return;
+    auto& context = *reinterpret_cast<LightContext*>(arguments->context);
+    const std::uint32_t triangle = self.translucent_[RTCHitN_primID(arguments->hit, 1, 0)];
+    context.passed *= tint_at(self.source_, triangle, RTCHitN_u(arguments->hit, 1, 0), RTCHitN_v(arguments->hit, 1, 0));
+    const bool blocked = luminance(context.passed) < blocked_below;
+    if (!blocked) arguments->valid[0] = 0;
+}
+
+}  // namespace render

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "embree.hpp"
+#include "scene.hpp"
+
+namespace render {
+
+/// Where an eye ray meets the mesh: the point is (1 - u - v) a + u b + v c on `triangle`'s corners a, b, c.
+struct Hit {
+    std::uint32_t triangle = 0;
+    float u = 0;
+    float v = 0;
+    float distance = 0;
+};
+
+/// A scene's triangles in Embree. Triangles that let light pass (transmission, alpha) lie in a geometry of their own
+/// with filter functions; the others never meet a filter, and a scene without transmissive surfaces has none.
+/// threads: all queries may run at once.
+class RayScene {
+public:
+    /// `scene` must outlive this object. throws std::runtime_error if Embree fails.
+    explicit RayScene(const Scene& scene);
+    ~RayScene();
+    RayScene(const RayScene&) = delete;
+    RayScene& operator=(const RayScene&) = delete;
+
+    /// Nearest surface along the unit `direction`; passes where an alpha mask has a hole.
+    std::optional<Hit> nearest(const glm::vec3& origin, const glm::vec3& direction) const;
+
+    /// True iff some surface passes light. Then shadow rays go through `to_point` and `to_infinity`; otherwise
+    /// plain occlusion queries of `embree_scene()` (single, packets or streams) answer the same.
+    bool transmissive() const { return transmissive_; }
+
+    /// Share of light that travels between two points, [0, 1]: the luminance of the product of the tints of the
+    /// surfaces between them. The ray stops just short of `to`, which may lie on a surface.
+    float to_point(const glm::vec3& from, const glm::vec3& to) const;
+
+    /// The same towards infinity; `direction` leads away from `from`.
+    float to_infinity(const glm::vec3& from, const glm::vec3& direction) const;
+
+    /// For occlusion queries by others. pre: `!transmissive()`, as the filters expect a context of this class.
+    RTCScene embree_scene() const { return scene_; }
+
+    /// Shadow rays end at this share of the way to a light, so that the surface which the light lies on is not hit.
+    static constexpr float shadow_ray_end = 1.0f - 1e-4f;
+
+private:
+    struct Ray;
+    static void skip_holes(const RTCFilterFunctionNArguments* arguments);
+    static void pass_light(const RTCFilterFunctionNArguments* arguments);
+
+    void add_geometry(const std::vector<std::uint32_t>& triangles, bool with_filters);
+    float pass(const glm::vec3& from, const glm::vec3& direction, float end) const;
+
+    const Scene& source_;
+    RTCDevice device_ = nullptr;
+    RTCScene scene_ = nullptr;
+    bool transmissive_ = false;
+    std::vector<std::uint32_t> opaque_;       ///< triangle of each primitive of geometry 0
+    std::vector<std::uint32_t> translucent_;  ///< triangle of each primitive of geometry 1
+};
+
+}  // namespace render

@@ -1,0 +1,227 @@
+#include "render_loop.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/enumerable_thread_specific.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include "interrupt.hpp"
+#include "progress.hpp"
+#include "tile_order.hpp"
+
+namespace render {
+
+namespace {
+
+constexpr int tile_side = 16;
+/// Points are shaded as soon as so many wait, so that many eye rays a pixel do not need much memory.
+constexpr std::size_t largest_batch = 2048;
+constexpr int adaptation_grid = 32;
+
+/// What a pixel has gathered from its eye rays.
+struct PixelSum {
+    glm::dvec3 radiance{0.0};
+    glm::dvec3 error_bound{0.0};
+    glm::dvec3 normal{0.0};
+    double depth = 0;
+    int hits = 0;
+    double cut_size = 0;
+    double shadow_rays = 0;
+};
+
+/// A thread's memory.
+struct Workspace {
+    std::unique_ptr<Shader::Scratch> scratch;
+    std::vector<SurfacePoint> points;
+    std::vector<Shading> shadings;
+    std::vector<PixelSum> sums;
+};
+
+class TileRenderer {
+public:
+    TileRenderer(const View& view, const SurfaceFinder& surfaces, const Shader& shader, const Options& options,
+                 Picture& picture)
+        : view_(view), surfaces_(surfaces), shader_(shader), options_(options), picture_(picture) {}
+
+    /// Fills the tile's pixels.
+    RenderStatistics render(const Tile& tile, Workspace& work) const {
+        RenderStatistics statistics;
+        const int columns = tile.x1 - tile.x0;
+        work.sums.assign(static_cast<std::size_t>(columns * (tile.y1 - tile.y0)), PixelSum{});
+        work.points.clear();
+        for (int sample = 0; sample < options_.spp; ++sample) {
+            for (int y = tile.y0; y < tile.y1; ++y) {
+                for (int x = tile.x0; x < tile.x1; ++x) {
+                    PixelSum& sum = work.sums[static_cast<std::size_t>((y - tile.y0) * columns + x - tile.x0)];
+                    cast(x, y, sample, sum, work.points);
+                    if (work.points.size() >= largest_batch) shade(tile, work, statistics);
+                }
+            }
+        }
+        shade(tile, work, statistics);
+        store(tile, work.sums, statistics);
+        return statistics;
+    }
+
+private:
+    std::uint32_t pixel_index(int x, int y) const { return static_cast<std::uint32_t>(y * view_.width() + x); }
+
+    void cast(int x, int y, int sample, PixelSum& sum, std::vector<SurfacePoint>& points) const {
+        const std::uint32_t pixel = pixel_index(x, y);
+        const glm::vec2 offset = pixel_offset(options_.seed, pixel, sample, options_.spp);
+        const EyeRay ray = view_.ray(static_cast<float>(x) + offset.x, static_cast<float>(y) + offset.y);
+        const EyeRaySeen seen = surfaces_.follow(ray, pixel, static_cast<std::uint32_t>(sample), points);
+        sum.radiance += glm::dvec3(seen.emitted);
+        if (std::isfinite(seen.depth)) {
+            sum.depth += static_cast<double>(seen.depth);
+            ++sum.hits;
+        }
+        sum.normal += glm::dvec3(seen.normal);
+    }
+
+    /// Shades the waiting points and adds them to their pixels, in the order in which the eye rays found them.
+    void shade(const Tile& tile, Workspace& work, RenderStatistics& statistics) const {
+        work.shadings.assign(work.points.size(), Shading{});
+        shader_.shade(work.points, work.shadings, *work.scratch);
+        for (std::size_t i = 0; i < work.points.size(); ++i) {
+            const SurfacePoint& point = work.points[i];
+            const Shading& shading = work.shadings[i];
+            const int x = static_cast<int>(point.pixel) % view_.width();
+            const int y = static_cast<int>(point.pixel) / view_.width();
+            PixelSum& sum = work.sums[static_cast<std::size_t>((y - tile.y0) * (tile.x1 - tile.x0) + x - tile.x0)];
+            for (int c = 0; c < 3; ++c) {
+                const double weight = static_cast<double>(point.weight[c]);
+                // A weight of zero takes away even an infinite bound.
+                if (weight == 0.0) continue;
+                sum.radiance[c] += weight * static_cast<double>(shading.radiance[c]);
+                sum.error_bound[c] += weight * static_cast<double>(shading.error_bound[c]);
+            }
+            sum.cut_size += static_cast<double>(shading.cut_size);
+            sum.shadow_rays += static_cast<double>(shading.shadow_rays);
+
+            statistics.shadow_rays += shading.shadow_rays;
+            statistics.cut_nodes += shading.cut_size;
+            statistics.largest_cut = std::max<std::uint64_t>(statistics.largest_cut, shading.cut_size);
+            statistics.at_limit += shading.at_limit ? 1 : 0;
+        }
+        statistics.points += work.points.size();
+        work.points.clear();
+    }
+
+    void set(const char* name, std::size_t pixel, double value) const {
+        if (Picture::Channel* channel = picture_.find(name)) channel->values[pixel] = static_cast<float>(value);
+    }
+
+    void store(const Tile& tile, const std::vector<PixelSum>& sums, RenderStatistics& statistics) const {
+        const double rays = options_.spp;
+        std::size_t next = 0;
+        for (int y = tile.y0; y < tile.y1; ++y) {
+            for (int x = tile.x0; x < tile.x1; ++x) {
+                const PixelSum& sum = sums[next++];
+                const std::size_t pixel = pixel_index(x, y);
+                picture_.pixels[pixel] = glm::vec3(sum.radiance / rays);
+                const glm::dvec3 bound = sum.error_bound / rays;
+                const double largest = std::max({bound.x, bound.y, bound.z});
+                statistics.error_bound_sum += largest;
+                statistics.largest_error_bound = std::max(statistics.largest_error_bound, largest);
+                ++statistics.pixels;
+                if (picture_.channels.empty()) continue;
+                set("cut_size", pixel, sum.cut_size / rays);
+                set("shadow_rays", pixel, sum.shadow_rays / rays);
+                set("error_bound.R", pixel, bound.x);
+                set("error_bound.G", pixel, bound.y);
+                set("error_bound.B", pixel, bound.z);
+                set("depth", pixel, sum.hits > 0 ? sum.depth / sum.hits : std::numeric_limits<double>::infinity());
+                set("normal.X", pixel, sum.normal.x / rays);
+                set("normal.Y", pixel, sum.normal.y / rays);
+                set("normal.Z", pixel, sum.normal.z / rays);
+            }
+        }
+    }
+
+    const View& view_;
+    const SurfaceFinder& surfaces_;
+    const Shader& shader_;
+    const Options& options_;
+    Picture& picture_;
+};
+
+void add_channels(Picture& picture, const Options& options) {
+    for (const std::string& name : options.aovs) {
+        const char* parts = name == "error_bound" ? "RGB" : name == "normal" ? "XYZ" : "";
+        if (*parts == '\0') picture.add_channel(name);
+        for (; *parts != '\0'; ++parts) picture.add_channel(name + "." + *parts);
+    }
+}
+
+void accumulate(RenderStatistics& total, const RenderStatistics& tile) {
+    total.pixels += tile.pixels;
+    total.points += tile.points;
+    total.shadow_rays += tile.shadow_rays;
+    total.cut_nodes += tile.cut_nodes;
+    total.largest_cut = std::max(total.largest_cut, tile.largest_cut);
+    total.at_limit += tile.at_limit;
+    total.error_bound_sum += tile.error_bound_sum;
+    total.largest_error_bound = std::max(total.largest_error_bound, tile.largest_error_bound);
+}
+
+}  // namespace
+
+Rendering render_picture(const View& view, const SurfaceFinder& surfaces, const Shader& shader,
+                         const Options& options) {
+    Rendering rendering;
+    rendering.picture = Picture(view.width(), view.height());
+    add_channels(rendering.picture, options);
+    const TileRenderer renderer(view, surfaces, shader, options, rendering.picture);
+
+    const std::vector<Tile> tiles = tiles_of(view.width(), view.height(), tile_side);
+    std::vector<RenderStatistics> by_tile(tiles.size());
+    tbb::enumerable_thread_specific<Workspace> workspaces([&] {
+        Workspace work;
+        work.scratch = shader.make_scratch();
+        return work;
+    });
+    {
+        Progress progress(tiles.size(), !options.quiet);
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tiles.size(), 1), [&](const auto& range) {
+            for (std::size_t t = range.begin(); t < range.end() && !interrupted(); ++t) {
+                by_tile[t] = renderer.render(tiles[t], workspaces.local());
+                progress.step();
+            }
+        });
+    }
+    // Added in the tiles' order: sums of floating-point numbers do not depend on who was first.
+    for (const RenderStatistics& tile : by_tile) accumulate(rendering.statistics, tile);
+    rendering.interrupted = rendering.statistics.pixels < rendering.picture.size();
+    return rendering;
+}
+
+float measure_adaptation(const View& view, const SurfaceFinder& surfaces, const Shader& shader) {
+    const int columns = std::min(adaptation_grid, view.width());
+    const int rows = std::min(adaptation_grid, view.height());
+    std::vector<glm::dvec3> row_sums(static_cast<std::size_t>(rows), glm::dvec3(0.0));
+    tbb::parallel_for(0, rows, [&](int row) {
+        std::vector<SurfacePoint> points;
+        for (int column = 0; column < columns; ++column) {
+            const float x = (static_cast<float>(column) + 0.5f) / static_cast<float>(columns);
+            const float y = (static_cast<float>(row) + 0.5f) / static_cast<float>(rows);
+            const EyeRay ray = view.ray(x * static_cast<float>(view.width()), y * static_cast<float>(view.height()));
+            surfaces.follow(ray, static_cast<std::uint32_t>(row * columns + column), 0, points);
+        }
+        std::vector<Shading> shadings(points.size());
+        const auto scratch = shader.make_scratch();
+        shader.shade(points, shadings, *scratch);
+        glm::dvec3& sum = row_sums[static_cast<std::size_t>(row)];
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            sum += glm::dvec3(points[i].weight) * glm::dvec3(shadings[i].radiance);
+        }
+    });
+    glm::dvec3 sum(0.0);
+    for (const glm::dvec3& s : row_sums) sum += s;
+    return static_cast<float>((sum.x + sum.y + sum.z) / (3.0 * columns * rows));
+}
+
+}  // namespace render

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+
+#include "options.hpp"
+#include "picture.hpp"
+#include "shader.hpp"
+#include "surface.hpp"
+#include "view.hpp"
+
+namespace render {
+
+/// Counts over everything that was shaded. Independent of the number of threads.
+struct RenderStatistics {
+    std::uint64_t pixels = 0;  ///< finished
+    std::uint64_t points = 0;  ///< surface points shaded
+    std::uint64_t shadow_rays = 0;
+    std::uint64_t cut_nodes = 0;  ///< sum of the points' cut sizes
+    std::uint64_t largest_cut = 0;
+    std::uint64_t at_limit = 0;  ///< points whose cut ended at the largest size allowed
+    double error_bound_sum = 0;  ///< over pixels, of the largest channel
+    double largest_error_bound = 0;
+};
+
+struct Rendering {
+    Picture picture;
+    RenderStatistics statistics;
+    bool interrupted = false;  ///< pixels that were not finished are black
+};
+
+/// Renders with `options.spp` eye rays a pixel. Tiles are spread over the threads of the calling task arena; Ctrl-C
+/// (`interrupted()`) ends the work after the tiles at hand. The picture is the same for any number of threads.
+/// Channels as `options.aovs` asks: `cut_size`, `shadow_rays` (sums along an eye ray, mean over the pixel's rays),
+/// `error_bound.R` `.G` `.B` (likewise, weighted along mirror paths), `depth` (mean over the rays that hit a surface,
+/// infinite if none does), `normal.X` `.Y` `.Z` (mean of the first hits' shading normals).
+Rendering render_picture(const View& view, const SurfaceFinder& surfaces, const Shader& shader, const Options& options);
+
+/// Mean of the channels and over a coarse grid of pixels of the light that surfaces reflect: what an eye adapts to.
+float measure_adaptation(const View& view, const SurfaceFinder& surfaces, const Shader& shader);
+
+}  // namespace render

@@ -1,0 +1,50 @@
+#include "scene_lights.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <lightcuts/tree/agglomerate.hpp>
+#include <lightcuts/tree/longest_axis.hpp>
+
+namespace render {
+
+namespace {
+
+struct TbbExecutor {
+    template <class Task>
+    void operator()(std::size_t count, Task&& task) const {
+        tbb::parallel_for(std::size_t{0}, count, task);
+    }
+};
+
+template <class L, class Builder>
+lightcuts::LightTree<L> tree_with(const std::vector<L>& lights, const Options& options, const Builder& builder) {
+    return lightcuts::LightTree<L>(
+        lights, {.representatives = options.representatives, .seed = options.seed}, builder, TbbExecutor{});
+}
+
+template <class L>
+lightcuts::LightTree<L> make_tree(const std::vector<L>& lights, const Options& options) {
+    if (options.builder == "agglomerate") {
+        return tree_with(lights, options, [](auto items, const auto& execute) {
+            if constexpr (requires { lightcuts::agglomerate(items, lightcuts::ClusterSize{}, execute); }) {
+                return lightcuts::agglomerate(items, lightcuts::ClusterSize{}, execute);
+            } else {
+                return lightcuts::agglomerate(items, execute);
+            }
+        });
+    }
+    if (options.builder == "longest-axis") {
+        return tree_with(lights, options, [](auto items, const auto& execute) {
+            return lightcuts::divide(items, lightcuts::LongestAxis{}, execute);
+        });
+    }
+    return tree_with(lights, options, lightcuts::BinnedBuilder{});
+}
+
+}  // namespace
+
+SceneLights::SceneLights(const Scene& scene, const Options& options)
+    : omni_(make_tree(scene.omni, options)), oriented_(make_tree(scene.oriented, options)),
+      spots_(make_tree(scene.spots, options)), directional_(make_tree(scene.directional, options)) {}
+
+}  // namespace render

@@ -1,0 +1,172 @@
+#include "shader.hpp"
+
+#include <cmath>
+#include <optional>
+#include <span>
+
+#include <lightcuts/adapt/embree.hpp>
+#include <lightcuts/cut/lightcut.hpp>
+#include <lightcuts/estimate/exhaustive.hpp>
+#include <lightcuts/estimate/power.hpp>
+#include <lightcuts/estimate/ward.hpp>
+
+#include "scene_lights.hpp"
+#include "surface_material.hpp"
+
+namespace render {
+
+namespace {
+
+using Forest = SceneLights::Forest;
+using Receiver = lightcuts::Receiver<SurfaceMaterial>;
+
+/// Visibility through surfaces that let light pass, as a share of its luminance.
+class TransmissiveOracle {
+public:
+    explicit TransmissiveOracle(const RayScene& rays) : rays_(rays) {}
+
+    template <class R, lightcuts::Light L>
+    float operator()(const R& receiver, const L& light) const {
+        const glm::vec3 place = lightcuts::place_of(light);
+        return lightcuts::DirectionalLight<L> ? rays_.to_infinity(receiver.shadow_origin, place)
+                                              : rays_.to_point(receiver.shadow_origin, place);
+    }
+
+private:
+    const RayScene& rays_;
+};
+
+Receiver receiver_of(const SurfacePoint& p) {
+    // Random choices differ between pixels, eye rays and the points of one eye ray.
+    const std::uint64_t name = lightcuts::hash_keys(p.pixel, p.sample, p.vertex);
+    return {p.position, SurfaceMaterial(p), p.ray_origin, static_cast<std::uint32_t>(name)};
+}
+
+/// Calls `f(oracle)` with the scene's visibility: plain Embree rays where all surfaces are opaque.
+template <class F>
+void with_oracle(const RayScene& rays, F&& f) {
+    if (rays.transmissive()) {
+        f(TransmissiveOracle(rays));
+    } else {
+        f(lightcuts::EmbreeOracle(rays.embree_scene(), 1.0f - RayScene::shadow_ray_end));
+    }
+}
+
+class LightcutShader final : public Shader {
+public:
+    LightcutShader(const Scene& scene, const RayScene& rays, const Options& options)
+        : rays_(rays), lights_(scene, options) {
+        cut_.error_ratio = options.error_ratio;
+        cut_.max_cut = options.max_cut;
+        cut_.adaptation = options.adaptation.value_or(0.0f);
+        cut_.seed = options.seed;
+    }
+
+    std::unique_ptr<Scratch> make_scratch() const override { return std::make_unique<CutScratch>(); }
+
+    void adapt(float radiance) override { cut_.adaptation = radiance; }
+
+    void shade(std::span<const SurfacePoint> points, std::span<Shading> out, Scratch& scratch) const override {
+        auto& own = static_cast<CutScratch&>(scratch);
+        with_oracle(rays_, [&](const auto& oracle) {
+            // Long streams of shadow rays against short-lived data: some 64 receivers at once are enough.
+            for (std::size_t begin = 0; begin < points.size(); begin += group) {
+                const std::size_t count = std::min(group, points.size() - begin);
+                own.receivers.clear();
+                for (const SurfacePoint& p : points.subspan(begin, count)) own.receivers.push_back(receiver_of(p));
+                own.results.resize(count);
+                lightcuts::shade(lights_.forest(), std::span<const Receiver>(own.receivers), oracle,
+                                 std::span(own.results), own.cuts, cut_);
+                for (std::size_t i = 0; i < count; ++i) out[begin + i] = shading_of(own.results[i]);
+            }
+        });
+    }
+
+private:
+    static constexpr std::size_t group = 64;
+
+    struct CutScratch final : Scratch {
+        std::vector<Receiver> receivers;
+        std::vector<lightcuts::CutResult<glm::vec3>> results;
+        lightcuts::LightcutScratch<glm::vec3> cuts;
+    };
+
+    static Shading shading_of(const lightcuts::CutResult<glm::vec3>& result) {
+        return {result.radiance, result.error_bound, result.cut_size, result.queries,
+                result.stop == lightcuts::StopReason::limit};
+    }
+
+    const RayScene& rays_;
+    SceneLights lights_;
+    lightcuts::LightcutOptions cut_;
+};
+
+/// The methods that add lights up one by one: `Method(forest, receiver, oracle, scratch) -> Estimate`.
+template <class Method>
+class EstimateShader final : public Shader {
+public:
+    EstimateShader(const Scene& scene, const RayScene& rays, const Options& options)
+        : rays_(rays), lights_(scene, options), method_(lights_.forest(), options) {}
+
+    std::unique_ptr<Scratch> make_scratch() const override { return std::make_unique<LightScratch>(); }
+
+    void shade(std::span<const SurfacePoint> points, std::span<Shading> out, Scratch& scratch) const override {
+        auto& own = static_cast<LightScratch&>(scratch).lights;
+        with_oracle(rays_, [&](const auto& oracle) {
+            for (std::size_t i = 0; i < points.size(); ++i) {
+                const Receiver receiver = receiver_of(points[i]);
+                const auto estimate = method_(lights_.forest(), receiver, oracle, own);
+                out[i] = {estimate.radiance, glm::vec3(0.0f), estimate.queries, estimate.queries, false};
+            }
+        });
+    }
+
+private:
+    struct LightScratch final : Scratch {
+        lightcuts::EstimateScratch<glm::vec3> lights;
+    };
+
+    const RayScene& rays_;
+    SceneLights lights_;
+    Method method_;
+};
+
+struct Exhaustive {
+    Exhaustive(const Forest&, const Options&) {}
+    template <class R, class Oracle, class Scratch>
+    auto operator()(const Forest& forest, const R& receiver, const Oracle& oracle, Scratch& scratch) const {
+        return lightcuts::exhaustive(forest, receiver, oracle, scratch);
+    }
+};
+
+struct Ward {
+    Ward(const Forest&, const Options& options) : threshold(options.ward_threshold) {}
+    template <class R, class Oracle, class Scratch>
+    auto operator()(const Forest& forest, const R& receiver, const Oracle& oracle, Scratch& scratch) const {
+        return lightcuts::ward(forest, receiver, oracle, threshold, scratch);
+    }
+    float threshold;
+};
+
+struct Power {
+    Power(const Forest& forest, const Options& options)
+        : distribution(forest), samples(options.samples), seed(options.seed) {}
+    template <class R, class Oracle, class Scratch>
+    auto operator()(const Forest& forest, const R& receiver, const Oracle& oracle, Scratch& scratch) const {
+        return lightcuts::power_sampling(forest, distribution, receiver, oracle, samples, seed, scratch);
+    }
+    lightcuts::PowerDistribution distribution;
+    std::uint32_t samples;
+    std::uint64_t seed;
+};
+
+}  // namespace
+
+std::unique_ptr<Shader> make_shader(const Scene& scene, const RayScene& rays, const Options& options) {
+    if (options.method == "exhaustive") return std::make_unique<EstimateShader<Exhaustive>>(scene, rays, options);
+    if (options.method == "ward") return std::make_unique<EstimateShader<Ward>>(scene, rays, options);
+    if (options.method == "power") return std::make_unique<EstimateShader<Power>>(scene, rays, options);
+    return std::make_unique<LightcutShader>(scene, rays, options);
+}
+
+}  // namespace render

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "options.hpp"
+#include "ray_scene.hpp"
+#include "scene.hpp"
+#include "surface.hpp"
+
+namespace render {
+
+/// The light that one surface point reflects to its viewer, and what it cost.
+struct Shading {
+    glm::vec3 radiance{0.0f};
+    glm::vec3 error_bound{0.0f};  ///< absolute radiance; may be infinite
+    std::uint32_t cut_size = 0;
+    std::uint32_t shadow_rays = 0;  ///< queries answered by the visibility oracle
+    bool at_limit = false;          ///< the cut ended at its largest size, not at the error ratio
+};
+
+/// A method of summing many lights. threads: `shade` may run at once with a scratch for each thread.
+class Shader {
+public:
+    /// Memory that a thread keeps between calls.
+    class Scratch {
+    public:
+        virtual ~Scratch() = default;
+    };
+
+    virtual ~Shader() = default;
+
+    virtual std::unique_ptr<Scratch> make_scratch() const = 0;
+
+    /// Fills `out[i]` for `points[i]`. The result of a point does not depend on the others.
+    /// pre: points.size() == out.size(); `scratch` was made by this shader.
+    virtual void shade(std::span<const SurfacePoint> points, std::span<Shading> out, Scratch& scratch) const = 0;
+
+    /// Takes the radiance to which the viewer's eye is adapted; methods that do not use it do nothing.
+    virtual void adapt(float radiance) { static_cast<void>(radiance); }
+};
+
+/// The shader of `options.method` for the lights of `scene`. Trees are built here. Both references are kept.
+std::unique_ptr<Shader> make_shader(const Scene& scene, const RayScene& rays, const Options& options);
+
+}  // namespace render

@@ -1,0 +1,272 @@
+#include "shapes.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include <glm/common.hpp>
+#include <glm/ext/matrix_transform.hpp>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
+
+namespace render {
+namespace {
+
+constexpr float two_pi = 2.0f * std::numbers::pi_v<float>;
+
+float turn(int i, int segments) { return two_pi * static_cast<float>(i) / static_cast<float>(segments); }
+
+/// Outward normal of the profile's edge from a to b, which runs upwards along the outside.
+glm::vec2 edge_normal(const glm::vec2& a, const glm::vec2& b) {
+    const glm::vec2 d = b - a;
+    return d == glm::vec2(0.0f) ? d : glm::normalize(glm::vec2(d.y, -d.x));
+}
+
+/// Any unit vector at right angles to the unit vector `v`.
+glm::vec3 across(const glm::vec3& v) {
+    const glm::vec3 other = std::abs(v.y) < 0.9f ? glm::vec3(0.0f, 1.0f, 0.0f) : glm::vec3(1.0f, 0.0f, 0.0f);
+    return glm::normalize(glm::cross(v, other));
+}
+
+/// Even-odd rule in the half-plane (radius, height).
+bool inside_profile(const std::vector<glm::vec2>& profile, const glm::vec2& p) {
+    bool inside = false;
+    for (std::size_t i = 0, j = profile.size() - 1; i < profile.size(); j = i++) {
+        const glm::vec2& a = profile[i];
+        const glm::vec2& b = profile[j];
+        if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (b.x - a.x) * (p.y - a.y) / (b.y - a.y)) inside = !inside;
+    }
+    return inside;
+}
+
+}  // namespace
+
+bool Solid::contains(const glm::vec3& p) const {
+    const auto between = [](const glm::vec3& v, const glm::vec3& from, const glm::vec3& to) {
+        return v.x > from.x && v.x < to.x && v.y > from.y && v.y < to.y && v.z > from.z && v.z < to.z;
+    };
+    if (!between(p, world_low, world_high)) return false;
+    const glm::vec3 local(to_local * glm::vec4(p, 1.0f));
+    if (profile.empty()) return between(local, low, high);
+    return inside_profile(profile, {glm::length(glm::vec2(local.x, local.z)), local.y});
+}
+
+std::uint32_t Modeller::paint(std::string name, const glm::vec3& color, float roughness, float metallic) {
+    Material m;
+    m.name = std::move(name);
+    m.base_color = color;
+    m.roughness = roughness;
+    m.metallic = metallic;
+    // Matt paint is Lambert's; only what shines needs a glossy lobe.
+    constexpr float matt = 0.35f;
+    if (metallic == 0.0f && roughness >= matt) m.model = Material::Model::phong;
+    scene.materials.push_back(std::move(m));
+    return static_cast<std::uint32_t>(scene.materials.size() - 1);
+}
+
+void Modeller::stand(const glm::vec3& p, float degrees) {
+    place = glm::rotate(glm::translate(glm::mat4(1.0f), p), glm::radians(degrees), glm::vec3(0.0f, 1.0f, 0.0f));
+}
+
+std::uint32_t Modeller::vertex(const glm::vec3& p, const glm::vec3& normal) {
+    scene.positions.emplace_back(place * glm::vec4(p, 1.0f));
+    const glm::vec3 n = glm::transpose(glm::inverse(glm::mat3(place))) * normal;
+    scene.normals.push_back(normal == glm::vec3(0.0f) ? normal : glm::normalize(n));
+    return static_cast<std::uint32_t>(scene.positions.size() - 1);
+}
+
+void Modeller::triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    scene.triangles.emplace_back(a, b, c);
+    scene.triangle_material.push_back(material);
+}
+
+void Modeller::add_solid(const glm::vec3& low, const glm::vec3& high, std::span<const glm::vec2> profile) {
+    Solid solid;
+    solid.to_local = glm::inverse(place);
+    solid.low = low;
+    solid.high = high;
+    solid.profile.assign(profile.begin(), profile.end());
+    solid.world_low = glm::vec3(std::numeric_limits<float>::max());
+    solid.world_high = -solid.world_low;
+    for (int i = 0; i < 8; ++i) {
+        const glm::vec3 corner((i & 1) != 0 ? high.x : low.x, (i & 2) != 0 ? high.y : low.y,
+                               (i & 4) != 0 ? high.z : low.z);
+        const glm::vec3 world(place * glm::vec4(corner, 1.0f));
+        solid.world_low = glm::min(solid.world_low, world);
+        solid.world_high = glm::max(solid.world_high, world);
+    }
+    solids.push_back(std::move(solid));
+}
+
+void Modeller::quad(const glm::vec3& corner, const glm::vec3& u, const glm::vec3& v, int cells_u, int cells_v) {
+    const auto first = static_cast<std::uint32_t>(scene.positions.size());
+    for (int j = 0; j <= cells_v; ++j) {
+        for (int i = 0; i <= cells_u; ++i) {
+            vertex(corner + u * (static_cast<float>(i) / static_cast<float>(cells_u)) +
+                       v * (static_cast<float>(j) / static_cast<float>(cells_v)),
+                   glm::vec3(0.0f));
+        }
+    }
+    const auto row = static_cast<std::uint32_t>(cells_u + 1);
+    for (std::uint32_t j = 0; j < static_cast<std::uint32_t>(cells_v); ++j) {
+        for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(cells_u); ++i) {
+            const std::uint32_t a = first + j * row + i;
+            triangle(a, a + 1, a + row + 1);
+            triangle(a, a + row + 1, a + row);
+        }
+    }
+}
+
+void Modeller::box(const glm::vec3& low, const glm::vec3& high) {
+    const auto first = static_cast<std::uint32_t>(scene.positions.size());
+    for (int i = 0; i < 8; ++i) {
+        vertex({(i & 1) != 0 ? high.x : low.x, (i & 2) != 0 ? high.y : low.y, (i & 4) != 0 ? high.z : low.z},
+               glm::vec3(0.0f));
+    }
+    constexpr std::array<std::array<std::uint32_t, 4>, 6> faces{
+        {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}};
+    for (const auto& [a, b, c, d] : faces) {
+        triangle(first + a, first + b, first + c);
+        triangle(first + a, first + c, first + d);
+    }
+    add_solid(low, high, {});
+}
+
+void Modeller::lathe(std::span<const glm::vec2> profile, int segments) {
+    float radius = 0.0f;
+    float low = profile.front().y;
+    float high = low;
+    std::vector<std::uint32_t> rings;
+    for (std::size_t i = 0; i < profile.size(); ++i) {
+        const glm::vec2 p = profile[i];
+        radius = std::max(radius, p.x);
+        low = std::min(low, p.y);
+        high = std::max(high, p.y);
+        const glm::vec2 before = i > 0 ? edge_normal(profile[i - 1], p) : glm::vec2(0.0f);
+        const glm::vec2 after = i + 1 < profile.size() ? edge_normal(p, profile[i + 1]) : glm::vec2(0.0f);
+        const glm::vec2 n = before + after;
+        rings.push_back(static_cast<std::uint32_t>(scene.positions.size()));
+        for (int s = 0; s <= segments; ++s) {
+            const float angle = turn(s % segments, segments);
+            vertex({p.x * std::cos(angle), p.y, -p.x * std::sin(angle)},
+                   {n.x * std::cos(angle), n.y, -n.x * std::sin(angle)});
+        }
+    }
+    for (std::size_t i = 0; i + 1 < profile.size(); ++i) {
+        if (profile[i] == profile[i + 1]) continue;
+        for (std::uint32_t s = 0; s < static_cast<std::uint32_t>(segments); ++s) {
+            const std::uint32_t a = rings[i] + s;
+            const std::uint32_t b = rings[i + 1] + s;
+            if (profile[i].x > 0.0f) triangle(a, a + 1, b + 1);
+            if (profile[i + 1].x > 0.0f) triangle(a, b + 1, b);
+        }
+    }
+    add_solid({-radius, low, -radius}, {radius, high, radius}, profile);
+}
+
+void Modeller::sphere(const glm::vec3& center, float radius, int segments) {
+    std::vector<glm::vec2> profile;
+    const int rings = segments / 2;
+    for (int i = 0; i <= rings; ++i) {
+        const float angle = 0.5f * turn(i, rings);
+        const bool pole = i == 0 || i == rings;
+        profile.emplace_back(pole ? 0.0f : radius * std::sin(angle), -radius * std::cos(angle));
+    }
+    const glm::mat4 outer = place;
+    place = glm::translate(place, center);
+    lathe(profile, segments);
+    place = outer;
+}
+
+void Modeller::cylinder(const glm::vec3& base, float radius, float height, int segments) {
+    const std::array<glm::vec2, 6> profile{
+        {{0.0f, 0.0f}, {radius, 0.0f}, {radius, 0.0f}, {radius, height}, {radius, height}, {0.0f, height}}};
+    const glm::mat4 outer = place;
+    place = glm::translate(place, base);
+    lathe(profile, segments);
+    place = outer;
+}
+
+void Modeller::tube(std::span<const glm::vec3> path, float radius, int segments, bool closed) {
+    const auto count = path.size();
+    const auto first = static_cast<std::uint32_t>(scene.positions.size());
+    const auto around = static_cast<std::uint32_t>(segments);
+    glm::vec3 side(0.0f);
+    for (std::size_t i = 0; i < count; ++i) {
+        const glm::vec3& next = path[i + 1 < count ? i + 1 : closed ? 0 : i];
+        const glm::vec3& last = path[i > 0 ? i - 1 : closed ? count - 1 : 0];
+        const glm::vec3 along = glm::normalize(next - last);
+        // Carry the frame along the path, so that it does not twist.
+        side = i == 0 ? across(along) : glm::normalize(side - glm::dot(side, along) * along);
+        const glm::vec3 up = glm::cross(along, side);
+        for (int s = 0; s < segments; ++s) {
+            const float angle = turn(s, segments);
+            const glm::vec3 n = std::cos(angle) * side + std::sin(angle) * up;
+            vertex(path[i] + radius * n, n);
+        }
+    }
+    const std::size_t links = closed ? count : count - 1;
+    for (std::size_t i = 0; i < links; ++i) {
+        const std::uint32_t a = first + static_cast<std::uint32_t>(i) * around;
+        const std::uint32_t b = first + static_cast<std::uint32_t>((i + 1) % count) * around;
+        // The carried frame does not close exactly on a ring: join each vertex to the nearest of the first circle.
+        std::uint32_t shift = 0;
+        if (i + 1 == count) {
+            const auto distance = [&](std::uint32_t s) {
+                return glm::distance(scene.positions[a], scene.positions[b + s]);
+            };
+            for (std::uint32_t s = 1; s < around; ++s) shift = distance(s) < distance(shift) ? s : shift;
+        }
+        for (std::uint32_t s = 0; s < around; ++s) {
+            const std::uint32_t t = (s + 1) % around;
+            triangle(a + s, a + t, b + (t + shift) % around);
+            triangle(a + s, b + (t + shift) % around, b + (s + shift) % around);
+        }
+    }
+}
+
+void Modeller::blade(const glm::vec3& root, const glm::vec3& tip, float width, float droop, int segments) {
+    const auto first = static_cast<std::uint32_t>(scene.positions.size());
+    const glm::vec3 side = glm::normalize(glm::cross(tip - root, glm::vec3(0.0f, 1.0f, 0.0f)));
+    const auto center = [&](float t) { return root + t * (tip - root) - glm::vec3(0.0f, droop * t * t, 0.0f); };
+    for (int i = 0; i <= segments; ++i) {
+        const float t = static_cast<float>(i) / static_cast<float>(segments);
+        const glm::vec3 along = center(t + 0.01f) - center(t - 0.01f);
+        const glm::vec3 normal = glm::normalize(glm::cross(side, along));
+        // Widest below the middle, pointed at the end.
+        const float half = i == segments
+                               ? 0.0f
+                               : 0.5f * width * std::sin(std::numbers::pi_v<float> * std::sqrt(0.03f + 0.97f * t));
+        vertex(center(t) - half * side, normal);
+        if (i < segments) vertex(center(t) + half * side, normal);
+    }
+    for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(segments); ++i) {
+        const std::uint32_t a = first + 2 * i;
+        const bool last = i + 1 == static_cast<std::uint32_t>(segments);
+        triangle(a, a + 1, a + 2);
+        if (!last) triangle(a + 1, a + 3, a + 2);
+    }
+}
+
+bool Modeller::is_free(const glm::vec3& p, float margin) const {
+    const auto hits = [&](const Solid& solid) {
+        const glm::vec3 low = solid.world_low - margin;
+        const glm::vec3 high = solid.world_high + margin;
+        if (p.x < low.x || p.y < low.y || p.z < low.z || p.x > high.x || p.y > high.y || p.z > high.z) return false;
+        if (solid.contains(p)) return true;
+        for (int axis = 0; axis < 3 && margin > 0.0f; ++axis) {
+            glm::vec3 step(0.0f);
+            step[axis] = margin;
+            if (solid.contains(p + step) || solid.contains(p - step)) return true;
+        }
+        return false;
+    };
+    return std::none_of(solids.begin(), solids.end(), hits);
+}
+
+}  // namespace render

@@ -1,0 +1,127 @@
+#include "statistics.hpp"
+
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+
+#include <sys/resource.h>
+
+#include <nlohmann/json.hpp>
+
+namespace render {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json finite_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+double per(double sum, std::uint64_t count) { return count > 0 ? sum / static_cast<double>(count) : 0.0; }
+
+/// A float's shortest decimal form, 0.02 rather than 0.0199999996.
+double as_written(float value) {
+    std::ostringstream text;
+    text << std::setprecision(7) << value;
+    return std::stod(text.str());
+}
+
+Json to_json(const glm::vec3& v) { return {as_written(v.x), as_written(v.y), as_written(v.z)}; }
+
+Json path_or_null(const std::filesystem::path& path) { return path.empty() ? Json(nullptr) : Json(path.string()); }
+
+Json options_json(const RunReport& report) {
+    const Options& o = report.options;
+    Json json;
+    json["output"] = o.output.string();
+    json["camera"] = o.camera.empty() ? Json(nullptr) : Json(o.camera);
+    json["eye"] = o.eye ? to_json(*o.eye) : Json(nullptr);
+    json["target"] = o.target ? to_json(*o.target) : Json(nullptr);
+    json["up"] = o.up ? to_json(*o.up) : Json(nullptr);
+    json["fov"] = o.fov ? Json(as_written(*o.fov)) : Json(nullptr);
+    json["error_ratio"] = as_written(o.error_ratio);
+    json["max_cut"] = o.max_cut;
+    json["representatives"] = o.representatives;
+    json["adaptation"] = as_written(report.adaptation);
+    json["samples"] = o.samples;
+    json["ward_threshold"] = as_written(o.ward_threshold);
+    json["builder"] = o.builder;
+    json["lights"] = path_or_null(o.lights);
+    json["area_points"] = o.area_points;
+    json["materials"] = o.diffuse_materials ? "diffuse" : "full";
+    json["reference"] = path_or_null(o.reference);
+    json["aov"] = o.aovs;
+    return json;
+}
+
+}  // namespace
+
+std::uint64_t peak_memory() {
+    rusage usage{};
+    ::getrusage(RUSAGE_SELF, &usage);
+#ifdef __APPLE__
+    return static_cast<std::uint64_t>(usage.ru_maxrss);
+#else
+    return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024u;
+#endif
+}
+
+Json to_json(const ErrorFigures& figures) {
+    Json json;
+    json["relative_rmse"] = finite_or_null(figures.relative_rmse);
+    json["relative_l1"] = finite_or_null(figures.relative_l1);
+    json["max_relative"] = finite_or_null(figures.max_relative);
+    json["p999_relative"] = finite_or_null(figures.p999_relative);
+    return json;
+}
+
+Json to_json(const RunReport& report) {
+    const Options& o = report.options;
+    const Scene& scene = report.scene;
+    const RenderStatistics& s = report.statistics;
+    Json json;
+    json["scene"] = o.scene;
+    json["method"] = o.method;
+    json["size"] = {o.width, o.height};
+    json["spp"] = o.spp;
+    json["seed"] = o.seed;
+    json["threads"] = report.threads;
+    json["interrupted"] = report.interrupted;
+    json["triangles"] = scene.triangles.size();
+    json["lights"] = {{"omni", scene.omni.size()},
+                      {"oriented", scene.oriented.size()},
+                      {"spot", scene.spots.size()},
+                      {"directional", scene.directional.size()}};
+    json["seconds"] = {{"load", report.seconds.load}, {"tree", report.seconds.tree}, {"render", report.seconds.render}};
+    json["shadow_rays"] = s.shadow_rays;
+    json["shadow_rays_per_pixel"] = per(static_cast<double>(s.shadow_rays), s.pixels);
+    json["cut_size"] = {
+        {"mean", per(static_cast<double>(s.cut_nodes), s.points)}, {"max", s.largest_cut}, {"at_limit", s.at_limit}};
+    json["error_bound"] = {{"mean", finite_or_null(per(s.error_bound_sum, s.pixels))},
+                           {"max", finite_or_null(s.largest_error_bound)}};
+    json["peak_memory_bytes"] = peak_memory();
+    json["options"] = options_json(report);
+    if (report.error) json["error"] = to_json(*report.error);
+    return json;
+}
+
+std::string summary(const RunReport& report) {
+    const Scene& scene = report.scene;
+    const RenderStatistics& s = report.statistics;
+    std::ostringstream text;
+    text << std::setprecision(3);
+    text << report.options.scene << ": " << scene.triangles.size() << " triangles, "
+         << scene.omni.size() + scene.oriented.size() + scene.spots.size() + scene.directional.size() << " lights\n";
+    text << report.options.method << ": " << report.seconds.load << " s loading, " << report.seconds.tree
+         << " s trees, " << report.seconds.render << " s rendering, "
+         << per(static_cast<double>(s.shadow_rays), s.pixels) << " shadow rays a pixel, cut size "
+         << per(static_cast<double>(s.cut_nodes), s.points) << "\n";
+    if (report.error) {
+        text << "relative RMSE " << 100.0 * report.error->relative_rmse << " %, 99.9th percentile "
+             << 100.0 * report.error->p999_relative << " %\n";
+    }
+    text << (report.interrupted ? "interrupted; what was finished is in " : "written: ")
+         << report.options.output.string() << "\n";
+    return text.str();
+}
+
+}  // namespace render

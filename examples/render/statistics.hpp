@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "error.hpp"
+#include "options.hpp"
+#include "render_loop.hpp"
+#include "scene.hpp"
+
+namespace render {
+
+/// Seconds of wall time.
+struct PhaseTimes {
+    double load = 0;    ///< reading the scene and preparing the ray tracer
+    double tree = 0;    ///< what the method builds before it shades
+    double render = 0;  ///< eye rays and shading
+};
+
+/// Everything that is reported of a run.
+struct RunReport {
+    RunReport(const Options& o, const Scene& s, int t) : options(o), scene(s), threads(t) {}
+
+    const Options& options;
+    const Scene& scene;
+    int threads = 1;
+    PhaseTimes seconds;
+    RenderStatistics statistics;
+    float adaptation = 0;
+    bool interrupted = false;
+    std::optional<ErrorFigures> error;
+};
+
+/// Largest resident memory of the process so far, bytes.
+std::uint64_t peak_memory();
+
+/// The report with the stable keys of the command line's contract. Numbers that are not finite become null. The
+/// error bound of a pixel is that of its worst channel; `cut_size.at_limit` counts surface points.
+nlohmann::ordered_json to_json(const RunReport& report);
+
+nlohmann::ordered_json to_json(const ErrorFigures& figures);
+
+/// The report in a few lines for people.
+std::string summary(const RunReport& report);
+
+}  // namespace render

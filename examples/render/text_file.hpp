@@ -1,0 +1,36 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace render {
+
+/// The whole file. throws: invalid_input when it is missing, a directory, or unreadable.
+std::string read_file(const std::filesystem::path& path);
+
+/// Throws invalid_input with "file:line: text".
+[[noreturn]] void fail_at(const std::filesystem::path& path, std::size_t line, const std::string& text);
+
+/// `text` as a number, if all of it is one. "nan" and "inf" are numbers; a leading plus sign is allowed.
+std::optional<double> parse_number(std::string_view text);
+
+/// `text` without spaces, tabs and carriage returns at its ends.
+std::string_view trim(std::string_view text);
+
+/// The parts of `text` between spaces and tabs.
+std::vector<std::string_view> split_words(std::string_view text);
+
+/// Calls `visit(line number from 1, line)` for each line.
+template <class Visit>
+void for_each_line(std::string_view text, Visit&& visit) {
+    for (std::size_t line = 1; !text.empty(); ++line) {
+        const std::size_t end = text.find('\n');
+        visit(line, text.substr(0, end));
+        text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    }
+}
+
+}  // namespace render

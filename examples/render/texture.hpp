@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "scene.hpp"
+
+namespace render {
+
+/// The light that an sRGB-encoded value in [0, 1] stands for.
+float srgb_to_linear(float encoded);
+
+/// Pixels as an image decoder delivers them: rows from the top, channels interleaved.
+struct EncodedImage {
+    int width = 0;
+    int height = 0;
+    int channels = 4;  ///< 1: grey; 2: grey, alpha; 3: RGB; 4: RGBA
+    int bits = 8;      ///< a channel: 8 or 16
+    const std::uint8_t* data = nullptr;
+    std::size_t bytes = 0;
+};
+
+/// A texture of `image`. `srgb`: its colours (never its alpha) are sRGB-encoded.
+/// throws: invalid_input naming `name` when the pixels are missing or of an unknown layout.
+Texture make_texture(std::string name, const EncodedImage& image, bool srgb);
+
+/// Reads a PNG, JPEG, TGA or BMP file. throws: invalid_input.
+Texture read_texture(const std::filesystem::path& path, bool srgb);
+
+}  // namespace render

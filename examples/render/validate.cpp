@@ -1,0 +1,200 @@
+#include "validate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <string_view>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+#include <lightcuts/core/invalid_input.hpp>
+#include <lightcuts/core/vector.hpp>
+
+namespace render {
+namespace {
+
+using lightcuts::is_finite;
+
+std::string text(float value) {
+    std::ostringstream out;
+    out << value;
+    return out.str();
+}
+
+std::string text(const glm::vec3& v) { return "(" + text(v.x) + ", " + text(v.y) + ", " + text(v.z) + ")"; }
+
+bool is_finite_and_not_negative(const glm::vec3& v) {
+    return is_finite(v) && v.x >= 0.0f && v.y >= 0.0f && v.z >= 0.0f;
+}
+
+/// Throws messages that begin with the scene's name.
+struct Checker {
+    const Scene& scene;
+
+    [[noreturn]] void fail(const std::string& message) const {
+        throw lightcuts::invalid_input(scene.name + ": " + message);
+    }
+
+    void sizes() const {
+        if (scene.triangles.empty()) fail("the scene has no triangles; there is nothing to render");
+        if (scene.triangle_material.size() != scene.triangles.size()) fail("not one material index per triangle");
+        if (!scene.normals.empty() && scene.normals.size() != scene.positions.size()) {
+            fail("not one normal per vertex; give all vertices a normal or none");
+        }
+        if (!scene.uvs.empty() && scene.uvs.size() != scene.positions.size()) {
+            fail("not one uv per vertex; give all vertices a uv or none");
+        }
+    }
+
+    void vertices() const {
+        for (std::size_t i = 0; i < scene.positions.size(); ++i) {
+            if (!is_finite(scene.positions[i])) {
+                fail("vertex " + std::to_string(i) + " at " + text(scene.positions[i]) +
+                     " is not finite; correct its coordinates");
+            }
+        }
+        for (std::size_t i = 0; i < scene.normals.size(); ++i) {
+            if (!is_finite(scene.normals[i])) {
+                fail("the normal of vertex " + std::to_string(i) + " is not finite; correct or remove the normals");
+            }
+        }
+        for (std::size_t i = 0; i < scene.uvs.size(); ++i) {
+            if (!is_finite(glm::vec3(scene.uvs[i], 0.0f))) {
+                fail("the uv of vertex " + std::to_string(i) + " is not finite; correct or remove the uvs");
+            }
+        }
+        for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
+            const glm::uvec3 corner = scene.triangles[t];
+            if (std::max({corner.x, corner.y, corner.z}) >= scene.positions.size()) {
+                fail("triangle " + std::to_string(t) + " has a vertex that does not exist; correct its indices");
+            }
+            if (scene.triangle_material[t] >= scene.materials.size()) {
+                fail("triangle " + std::to_string(t) + " has a material that does not exist; correct its index");
+            }
+        }
+    }
+
+    void materials() const {
+        for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+            const Material& m = scene.materials[i];
+            const auto require = [&](bool good, const char* what) {
+                if (!good) {
+                    fail("material " + std::to_string(i) + " '" + m.name + "': " + what +
+                         " is negative, too large or not a number; correct it");
+                }
+            };
+            const auto within = [](float v, float low, float high) { return v >= low && v <= high; };
+            require(is_finite_and_not_negative(m.base_color), "the base colour");
+            require(is_finite_and_not_negative(m.specular), "the specular colour");
+            require(is_finite_and_not_negative(m.emission), "the emission");
+            require(within(m.metallic, 0.0f, 1.0f), "metallic");
+            require(within(m.roughness, 0.0f, 1.0f), "roughness");
+            require(within(m.transmission, 0.0f, 1.0f), "transmission");
+            require(within(m.base_alpha, 0.0f, 1.0f), "alpha");
+            require(std::isfinite(m.alpha_cutoff), "the alpha cutoff");
+            require(within(m.exponent, 0.0f, 1e9f), "the specular exponent");
+            require(within(m.ior, 0.1f, 100.0f), "the index of refraction");
+            for (const int index : {m.base_color_texture, m.metallic_roughness_texture, m.emission_texture}) {
+                if (index != no_texture && (index < 0 || static_cast<std::size_t>(index) >= scene.textures.size())) {
+                    fail("material '" + m.name + "' has a texture that is not there; add it");
+                }
+            }
+        }
+        for (const Texture& t : scene.textures) {
+            const auto pixels = static_cast<std::size_t>(std::max(t.width, 0)) *
+                                static_cast<std::size_t>(std::max(t.height, 0));
+            if (pixels == 0 || t.texels.size() != pixels) fail("texture '" + t.name + "' has no pixels; replace it");
+        }
+    }
+
+    template <class L>
+    void lights(const std::vector<L>& all, const char* kind) const {
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            const std::string problem = problem_of(all[i]);
+            if (!problem.empty()) fail(std::string(kind) + " light " + std::to_string(i) + ": " + problem);
+        }
+    }
+
+    /// Empty if there is none.
+    template <class L>
+    static std::string problem_of(const L& light) {
+        if (!is_finite_and_not_negative(light.intensity)) {
+            return "the intensity " + text(light.intensity) + " is negative or not finite; correct it";
+        }
+        if constexpr (requires { light.position; }) {
+            if (!is_finite(light.position))
+                return "the position " + text(light.position) + " is not finite; correct it";
+        }
+        if constexpr (requires { light.axis; }) return axis_problem(light.axis);
+        if constexpr (requires { light.direction; }) return axis_problem(light.direction);
+        return {};
+    }
+
+    static std::string axis_problem(const glm::vec3& v) {
+        if (!is_finite(v) || v == glm::vec3(0.0f)) {
+            return "the direction " + text(v) + " has no length or is not finite; correct it";
+        }
+        if (std::abs(glm::length(v) - 1.0f) > 1e-3f) return "the direction " + text(v) + " is not a unit vector";
+        return {};
+    }
+};
+
+/// Exactly collinear in doubles: such a triangle has no normal, cannot be hit and emits nothing.
+bool has_area(const Scene& scene, glm::uvec3 corner) {
+    const glm::dvec3 a(scene.positions[corner.x]);
+    const glm::dvec3 cross = glm::cross(glm::dvec3(scene.positions[corner.y]) - a,
+                                        glm::dvec3(scene.positions[corner.z]) - a);
+    return cross != glm::dvec3(0.0);
+}
+
+void drop_flat_triangles(Scene& scene) {
+    std::size_t kept = 0;
+    for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
+        if (!has_area(scene, scene.triangles[t])) continue;
+        scene.triangles[kept] = scene.triangles[t];
+        scene.triangle_material[kept] = scene.triangle_material[t];
+        ++kept;
+    }
+    scene.dropped_triangles += scene.triangles.size() - kept;
+    scene.triangles.resize(kept);
+    scene.triangle_material.resize(kept);
+}
+
+template <class L>
+std::size_t drop_dark(std::vector<L>& lights) {
+    return std::erase_if(lights, [](const L& light) { return light.intensity == glm::vec3(0.0f); });
+}
+
+}  // namespace
+
+void validate(Scene& scene) {
+    const Checker check{scene};
+    check.sizes();
+    check.vertices();
+    check.materials();
+    check.lights(scene.omni, "omni");
+    check.lights(scene.oriented, "oriented");
+    check.lights(scene.spots, "spot");
+    check.lights(scene.directional, "directional");
+    if (std::none_of(scene.triangles.begin(), scene.triangles.end(),
+                     [&](glm::uvec3 corner) { return has_area(scene, corner); })) {
+        check.fail("every triangle has zero area; there is nothing to render");
+    }
+
+    drop_flat_triangles(scene);
+    scene.dropped_lights += drop_dark(scene.omni) + drop_dark(scene.oriented) + drop_dark(scene.spots) +
+                            drop_dark(scene.directional);
+}
+
+void require_lights(const Scene& scene) {
+    const bool none = scene.omni.empty() && scene.oriented.empty() && scene.spots.empty() &&
+                      scene.directional.empty() && scene.dropped_lights == 0;
+    if (none) {
+        throw lightcuts::invalid_input(scene.name +
+                                       ": the scene has no lights; add some with --lights, or raise --area-points if "
+                                       "it has emissive surfaces");
+    }
+}
+
+}  // namespace render

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "scene.hpp"
+
+namespace render {
+
+struct EyeRay {
+    glm::vec3 origin{0.0f};
+    glm::vec3 direction{0.0f};  ///< unit
+};
+
+/// Where sample `sample` of `spp` lies within a pixel, [0, 1)^2: the centre if it is the only one, else points that
+/// cover the pixel evenly, shifted by a hash of (seed, pixel).
+glm::vec2 pixel_offset(std::uint64_t seed, std::uint32_t pixel, int sample, int spp);
+
+/// A pinhole camera in front of a grid of square pixels; (0, 0) is the top left corner of the picture.
+class View {
+public:
+    /// pre: width, height > 0; `require_usable` accepts the camera.
+    View(const Camera& camera, int width, int height);
+
+    /// The ray through (x, y), in pixels.
+    EyeRay ray(float x, float y) const;
+
+    int width() const { return width_; }
+    int height() const { return height_; }
+
+private:
+    int width_;
+    int height_;
+    glm::vec3 eye_;
+    glm::vec3 right_;   ///< one pixel to the right on the image plane at distance 1
+    glm::vec3 down_;    ///< one pixel down
+    glm::vec3 corner_;  ///< from the eye to the top left corner
+};
+
+/// throws: invalid_input, in one line that begins with `where`, unless `camera` spans a picture: all coordinates
+/// finite, target apart from the eye, up not along the view, field of view within (0, 180) degrees.
+void require_usable(const Camera& camera, const std::string& where);
+
+/// An up vector for a camera that has been given none: +y, or -z when it looks along y.
+glm::vec3 default_up(const glm::vec3& eye, const glm::vec3& target);
+
+}  // namespace render

@@ -1,0 +1,110 @@
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+#include "../core/box.hpp"
+#include "../core/cone.hpp"
+#include "../core/cosine.hpp"
+#include "../core/rounding.hpp"
+#include "../tree/light_cluster.hpp"
+#include "kernel.hpp"
+
+namespace lightcuts {
+
+/// True if the lights of kind `L` fall off with the squared distance.
+template <Light L>
+inline constexpr bool inverse_square = PointLight<L> && !FalloffLight<L>;
+/// True if the lights of kind `L` emit intensity * max(0, cos) about an axis.
+template <Light L>
+inline constexpr bool cosine_emission = OrientedLight<L> && !ProfiledLight<L>;
+
+namespace detail {
+
+/// x / d2 for a bound x, with 0 / 0 = 0: a term that is certainly zero beats a light that may be at the receiver.
+inline double over_distance2(double x, double d2) {
+    if (!(x > 0.0)) return 0.0;
+    return d2 > 0.0 ? x / d2 : std::numeric_limits<double>::infinity();
+}
+
+/// The profile functions of a light are floats; this covers their rounding.
+inline constexpr double float_slack = 1.0 + 2e-6;
+
+}  // namespace detail
+
+/// Upper bound of the attenuation of any light in the cluster.
+template <Light L>
+double attenuation_bound(const LightCluster<L>& cluster, const ClusterView& view) {
+    if constexpr (DirectionalLight<L>) {
+        return 1.0;
+    } else if constexpr (inverse_square<L>) {
+        return view.inverse_distance * view.inverse_distance * (1.0 + 8.0 * unit_roundoff);
+    } else {
+        const float nearest = round_down(std::sqrt(view.distance2) * (1.0 - 1e-7));
+        const float distance = nearest > 0.0f ? nearest : 0.0f;
+        if constexpr (requires { cluster.envelope.falloff_bound(distance); }) {
+            return static_cast<double>(cluster.envelope.falloff_bound(distance)) * detail::float_slack;
+        } else if constexpr (requires { light_traits<L>::falloff_bound(distance); }) {
+            return static_cast<double>(light_traits<L>::falloff_bound(distance)) * detail::float_slack;
+        } else {
+            static_assert(
+                requires { L::falloff_bound(distance); },
+                "a light with falloff(d) needs falloff_bound(d_min): static, or on what its envelope() returns");
+            return static_cast<double>(L::falloff_bound(distance)) * detail::float_slack;
+        }
+    }
+}
+
+/// Upper bound of the emission, relative to the peak, of any light in the cluster towards the receiver.
+template <class Kernel, Light L>
+double emission_bound(const LightCluster<L>& cluster, const ClusterView& view) {
+    if constexpr (!OrientedLight<L>) {
+        return 1.0;
+    } else {
+        // The angle at the light is between its axis and -p, which is the one between the reversed axis and p.
+        // A cone's angle was measured from the unit vector along the stored axis; a single axis counts as it is.
+        const glm::dvec3 axis = is_single(cluster.cone) ? glm::dvec3(cluster.cone.axis) : unit_axis(cluster.cone);
+        if constexpr (cosine_emission<L>) {
+            const double front = detail::front_cosine<Kernel>(-axis, view);
+            if (is_single(cluster.cone)) return front;
+            const double cosine = front > 0.0 ? front : max_cosine(-axis, view.box);
+            const double widened = widen_cosine(cosine, cluster.cone);
+            return widened > 0.0 ? widened : 0.0;
+        } else {
+            const auto to_float = [](double c) { return static_cast<float>(c < -1.0 ? -1.0 : c > 1.0 ? 1.0 : c); };
+            // The slack is for axes of nearly unit length and the rounding of the cosine to float.
+            const double largest = widen_cosine(max_cosine(-axis, view.box), cluster.cone) + 6e-6;
+            const double least = -widen_cosine(max_cosine(axis, view.box), cluster.cone) - 6e-6;
+            const float cos_min = to_float(least), cos_max = to_float(largest);
+            if constexpr (requires { cluster.envelope.emission_bound(cos_min, cos_max); }) {
+                return static_cast<double>(cluster.envelope.emission_bound(cos_min, cos_max)) * detail::float_slack;
+            } else if constexpr (requires { light_traits<L>::emission_bound(cos_min, cos_max); }) {
+                return static_cast<double>(light_traits<L>::emission_bound(cos_min, cos_max)) * detail::float_slack;
+            } else {
+                static_assert(
+                    requires { L::emission_bound(cos_min, cos_max); },
+                    "a light with emission(cos) needs emission_bound(cos_min, cos_max): static, or on what its "
+                    "envelope() returns");
+                return static_cast<double>(L::emission_bound(cos_min, cos_max)) * detail::float_slack;
+            }
+        }
+    }
+}
+
+/// Upper bound of emission x attenuation of any light in the cluster: the geometric term [Lightcuts 2005, Eq. 3].
+template <class Kernel, Light L>
+double geometric_bound(const LightCluster<L>& cluster, const ClusterView& view) {
+    if constexpr (cosine_emission<L> && inverse_square<L>) {
+        if (is_single(cluster.cone)) {
+            return Kernel::template power<3>(-glm::dvec3(cluster.cone.axis), view);
+        }
+        return detail::over_distance2(emission_bound<Kernel>(cluster, view), view.distance2);
+    } else if constexpr (OrientedLight<L>) {
+        const double emission = emission_bound<Kernel>(cluster, view);
+        return emission > 0.0 ? emission * attenuation_bound(cluster, view) : 0.0;
+    } else {
+        return attenuation_bound(cluster, view);
+    }
+}
+
+}  // namespace lightcuts

@@ -1,0 +1,170 @@
+#pragma once
+
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include "box.hpp"
+#include "rounding.hpp"
+
+namespace lightcuts {
+
+/// All directions within an angle beta of an axis. Stored as sin^2(beta/2), which, unlike a cosine, keeps small
+/// angles. The default is empty: the identity of `merge`.
+struct Cone {
+    glm::vec3 axis{0.0f, 0.0f, 1.0f};  ///< unit
+    float sin2_half = -1.0f;           ///< sin^2(beta/2): 0 one direction, 1/2 hemisphere, 1 sphere; negative: empty
+
+    friend constexpr bool operator==(const Cone&, const Cone&) = default;
+};
+
+/// The cone of one direction; pre: `axis` is a unit vector.
+constexpr Cone cone_of(const glm::vec3& axis) { return {axis, 0.0f}; }
+
+/// The cone of every direction.
+constexpr Cone whole_sphere() { return {{0.0f, 0.0f, 1.0f}, 1.0f}; }
+
+constexpr bool is_empty(const Cone& c) { return c.sin2_half < 0.0f; }
+constexpr bool is_single(const Cone& c) { return c.sin2_half == 0.0f; }
+constexpr bool is_whole_sphere(const Cone& c) { return c.sin2_half >= 1.0f; }
+
+/// The axis in double, with length 1 to double precision: as stored it is off by up to 1e-7, too much for
+/// `widen_cosine` where the cosine is near -1. pre: not empty
+inline glm::dvec3 unit_axis(const Cone& c) { return glm::normalize(glm::dvec3(c.axis)); }
+
+/// The opposite directions.
+constexpr Cone negated(const Cone& c) { return {-c.axis, c.sin2_half}; }
+
+/// 1 - cos(beta), without cancellation; pre: not empty.
+constexpr double one_minus_cos(const Cone& c) { return 2.0 * static_cast<double>(c.sin2_half); }
+
+/// cos(beta); pre: not empty.
+constexpr double cos_half_angle(const Cone& c) { return 1.0 - 2.0 * static_cast<double>(c.sin2_half); }
+
+/// sin(beta); pre: not empty.
+inline double sin_half_angle(const Cone& c) {
+    const double s2 = static_cast<double>(c.sin2_half);
+    return 2.0 * std::sqrt(s2 * (1.0 - s2));
+}
+
+/// beta in radians; pre: not empty.
+inline double half_angle(const Cone& c) {
+    const double s2 = static_cast<double>(c.sin2_half);
+    return 2.0 * std::atan2(std::sqrt(s2), std::sqrt(1.0 - s2));
+}
+
+/// The angle between two vectors, in radians, accurate from 0 to pi; pre: neither is zero.
+inline double angle_between(const glm::dvec3& a, const glm::dvec3& b) {
+    const glm::dvec3 s = glm::normalize(a);
+    const glm::dvec3 t = glm::normalize(b);
+    return 2.0 * std::atan2(glm::length(s - t), glm::length(s + t));
+}
+
+/// True iff `direction` lies in `c`; pre: `direction` is not zero.
+inline bool contains(const Cone& c, const glm::dvec3& direction) {
+    const glm::dvec3 apart = glm::normalize(direction) - unit_axis(c);
+    return 0.25 * detail::dot(apart, apart) <= static_cast<double>(c.sin2_half) || is_whole_sphere(c);
+}
+
+namespace detail {
+
+/// Sine and cosine of an angle in [0, pi/2]: half of a cone's angle, or half of the angle between two axes. Sums of
+/// them by the addition theorems replace all inverse trigonometric functions.
+struct HalfAngle {
+    double sin;
+    double cos;
+};
+
+constexpr HalfAngle operator+(const HalfAngle& a, const HalfAngle& b) {
+    return {a.sin * b.cos + a.cos * b.sin, a.cos * b.cos - a.sin * b.sin};
+}
+constexpr HalfAngle operator-(const HalfAngle& a, const HalfAngle& b) {
+    return {a.sin * b.cos - a.cos * b.sin, a.cos * b.cos + a.sin * b.sin};
+}
+
+inline HalfAngle half_of(const Cone& c) {
+    const double s2 = static_cast<double>(c.sin2_half);
+    return {std::sqrt(s2), std::sqrt(1.0 - s2)};
+}
+
+/// Half of the angle between two unit vectors.
+inline HalfAngle half_between(const glm::dvec3& a, const glm::dvec3& b) {
+    return {0.5 * glm::length(a - b), 0.5 * glm::length(a + b)};
+}
+
+/// sin^2 of half the angle that a cone about `axis` needs to hold the cone (`other`, `half`).
+inline double needed_sin2_half(const glm::dvec3& axis, const glm::dvec3& other, const HalfAngle& half) {
+    constexpr double slack = 16.0 * unit_roundoff;  // rounding of the unit vectors
+    const HalfAngle sum = half_between(axis, other) + half;
+    if (sum.cos <= slack) return 1.0;
+    const double s = sum.sin + slack;
+    return s * s * (1.0 + slack);
+}
+
+/// A unit vector perpendicular to the unit vector `a`.
+inline glm::dvec3 perpendicular(const glm::dvec3& a) {
+    const double x = std::fabs(a.x);
+    const double y = std::fabs(a.y);
+    const double z = std::fabs(a.z);
+    const glm::dvec3 least = x <= y && x <= z ? glm::dvec3(1, 0, 0)
+                             : y <= z         ? glm::dvec3(0, 1, 0)
+                                              : glm::dvec3(0, 0, 1);
+    return glm::normalize(glm::cross(a, least));
+}
+
+}  // namespace detail
+
+/// A cone that holds both: minimal, up to the rounding of its float storage, which is outward. Equal single
+/// directions stay one direction.
+inline Cone merge(const Cone& a, const Cone& b) {
+    using namespace detail;
+    if (is_empty(b) || is_whole_sphere(a)) return a;
+    if (is_empty(a) || is_whole_sphere(b)) return b;
+    if (a.axis == b.axis) return a.sin2_half >= b.sin2_half ? a : b;
+    if (a.sin2_half < b.sin2_half) return merge(b, a);
+
+    const glm::dvec3 u = unit_axis(a);
+    const glm::dvec3 v = unit_axis(b);
+    const HalfAngle half_a = half_of(a);
+    const HalfAngle half_b = half_of(b);
+    const HalfAngle between = half_between(u, v);
+    const HalfAngle surplus = half_a - half_b;
+    if (surplus.sin >= between.sin + 16.0 * unit_roundoff) return a;  // b lies in a
+    // The merged half-angle is beta = (beta_a + beta_b + angle) / 2.
+    const HalfAngle beta = half_a + half_b + between;
+    if (beta.sin <= 0.0 && beta.cos < 0.5) return whole_sphere();
+
+    // Rotate u towards v by beta - beta_a.
+    const glm::dvec3 apart = between.sin <= between.cos ? v - u : v + u;
+    glm::dvec3 side = apart - u * dot(apart, u);
+    const double length = glm::length(side);
+    side = length > 1e-14 ? side / length : perpendicular(u);
+    const HalfAngle turn = between - surplus;
+    const glm::vec3 axis(glm::normalize(u * turn.cos + side * turn.sin));
+
+    // Measure again about the axis as stored.
+    const glm::dvec3 w = glm::normalize(glm::dvec3(axis));
+    const double needed_a = needed_sin2_half(w, u, half_a);
+    const double needed_b = needed_sin2_half(w, v, half_b);
+    const float needed = round_up(needed_a > needed_b ? needed_a : needed_b);
+    return needed >= 1.0f ? whole_sphere() : Cone{axis, needed};
+}
+
+/// The cone of `c` and one more direction.
+inline Cone merge(const Cone& c, const glm::vec3& direction) { return merge(c, cone_of(direction)); }
+
+/// Upper bound of the cosine between a direction and the cone's nearest one, given the cosine `cos_axis` between the
+/// direction and the (unit) axis: cos(max(0, theta - beta)). A single direction returns `cos_axis` unchanged, so that
+/// zeros stay zeros. pre: `c` is not empty
+inline double widen_cosine(double cos_axis, const Cone& c) {
+    if (is_single(c)) return cos_axis;
+    const double cos_cone = cos_half_angle(c);
+    if (cos_axis >= cos_cone) return 1.0;
+    const double clamped = cos_axis < -1.0 ? -1.0 : cos_axis;
+    const double wide = clamped * cos_cone + std::sqrt((1.0 - clamped) * (1.0 + clamped)) * sin_half_angle(c) +
+                        4.0 * unit_roundoff;
+    return wide < 1.0 ? wide : 1.0;
+}
+
+}  // namespace lightcuts

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+
+#include "../tree/light_tree.hpp"
+
+namespace lightcuts {
+
+/// Light trees that are refined as one: one frontier, one total, one threshold, one batch of shadow rays. The kinds
+/// are fixed at compile time, and a kind that a scene lacks is left out of the list. Refers to the trees.
+template <Light... Ls>
+    requires(sizeof...(Ls) > 0)
+class LightForest {
+public:
+    using spectrum = std::common_type_t<spectrum_of<Ls>...>;
+    static_assert((std::same_as<spectrum, spectrum_of<Ls>> && ...), "all lights of a forest need the same spectrum");
+    static constexpr std::uint32_t kinds = sizeof...(Ls);
+
+    explicit LightForest(const LightTree<Ls>&... trees) : trees_(&trees...) {}
+    /// The forest would refer to trees that are gone.
+    explicit LightForest(const LightTree<Ls>&&... trees) = delete;
+
+    /// Calls `f(tree)` with the tree of kind `kind` and returns its result. pre: kind < kinds.
+    template <class F>
+    decltype(auto) visit(std::uint32_t kind, F&& f) const {
+        return visit_from<0>(kind, f);
+    }
+
+    /// Calls `f(kind, tree)` for each kind in order.
+    template <class F>
+    void for_each(F&& f) const {
+        for_each_from<0>(f);
+    }
+
+    /// Number of trees with at least one lit light: the smallest cut.
+    std::size_t root_count() const {
+        std::size_t count = 0;
+        for_each([&](std::uint32_t, const auto& tree) { count += tree.empty() ? 0 : 1; });
+        return count;
+    }
+
+private:
+    template <std::size_t K, class F>
+    decltype(auto) visit_from([[maybe_unused]] std::uint32_t kind, F& f) const {
+        if constexpr (K + 1 == sizeof...(Ls)) {
+            return f(*std::get<K>(trees_));
+        } else {
+            return kind == K ? f(*std::get<K>(trees_)) : visit_from<K + 1>(kind, f);
+        }
+    }
+
+    template <std::size_t K, class F>
+    void for_each_from(F& f) const {
+        f(static_cast<std::uint32_t>(K), *std::get<K>(trees_));
+        if constexpr (K + 1 < sizeof...(Ls)) for_each_from<K + 1>(f);
+    }
+
+    std::tuple<const LightTree<Ls>*...> trees_;
+};
+
+/// A tree as a forest of one; a forest as it is. Algorithms take either.
+template <Light L>
+LightForest<L> as_forest(const LightTree<L>& tree) {
+    return LightForest<L>(tree);
+}
+template <Light... Ls>
+const LightForest<Ls...>& as_forest(const LightForest<Ls...>& forest) {
+    return forest;
+}
+
+/// A LightTree or a LightForest.
+template <class T>
+concept TreeOrForest = requires(const T& lights) { as_forest(lights); };
+
+template <TreeOrForest T>
+using forest_of = std::remove_cvref_t<decltype(as_forest(std::declval<const T&>()))>;
+template <TreeOrForest T>
+using forest_spectrum = typename forest_of<T>::spectrum;
+
+}  // namespace lightcuts

@@ -1,0 +1,245 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "../core/assertion.hpp"
+#include "lightcut_problem.hpp"
+
+namespace lightcuts {
+
+/// What shading a receiver by a cut yields.
+template <Spectrum S>
+struct CutResult {
+    S radiance{};
+    /// Sum of the error bounds of the cut's clusters, absolute radiance; infinite if a cluster that may touch the
+    /// receiver is left on the cut.
+    S error_bound{};
+    std::uint32_t cut_size = 0;  ///< clusters on the cut, those that cannot contribute too
+    std::uint32_t queries = 0;   ///< shadow rays asked of the oracle
+    StopReason stop = StopReason::converged;
+};
+
+/// Storage that shading reuses; one for each thread. No allocation once warm.
+template <Spectrum S>
+struct LightcutScratch {
+    struct Slot {
+        Refinement<CutNode<S>> refinement;
+        CutTotals<S> totals;
+        bool running = false;
+    };
+    std::vector<Slot> slots;
+    std::vector<VisibilityQuery> queries;
+    std::vector<float> answers;
+};
+
+namespace detail {
+
+template <class Forest>
+RefinementOptions refinement_options(const Forest& forest, const LightcutOptions& options) {
+    RefinementOptions refinement;
+    refinement.round_fraction = options.round_fraction;
+    if (options.max_cut > 0) {
+        const std::size_t roots = forest.root_count();
+        refinement.max_nodes = options.max_cut > roots ? options.max_cut : roots;
+    }
+    return refinement;
+}
+
+template <Spectrum S>
+CutResult<S> cut_result(const Refinement<CutNode<S>>& refinement, const CutTotals<S>& totals) {
+    typename CutTotals<S>::Sums radiance{}, bound{};
+    for (const std::span<const CutNode<S>> nodes : {refinement.resting(), refinement.active()}) {
+        for (const CutNode<S>& n : nodes) {
+            for (int c = 0; c < channels_of<S>; ++c) {
+                radiance[static_cast<std::size_t>(c)] += static_cast<double>(channel(n.estimate, c));
+                bound[static_cast<std::size_t>(c)] += static_cast<double>(channel(n.bound, c));
+            }
+        }
+    }
+    CutResult<S> result;
+    result.radiance = finite(make_spectrum<S>([&](int c) { return radiance[static_cast<std::size_t>(c)]; }));
+    result.error_bound = make_spectrum<S>([&](int c) { return round_up(bound[static_cast<std::size_t>(c)]); });
+    result.cut_size = static_cast<std::uint32_t>(refinement.size());
+    result.queries = totals.queries;
+    result.stop = refinement.stop_reason();
+    return result;
+}
+
+}  // namespace detail
+
+/// One receiver's lightcut, refined a round at a time: for those who stop on a time budget, look at the cut, or bring
+/// their own batches. Refers to the trees, the receiver and the oracle. `shade` is the one-shot function.
+template <class Forest, class R, class Oracle, class Policy = TwoStageBounds>
+class Lightcut {
+public:
+    using S = typename Forest::spectrum;
+
+    template <TreeOrForest Lights>
+    Lightcut(const Lights& lights, const R& receiver, const Oracle& oracle, const LightcutOptions& options = {},
+             const Policy& policy = {})
+        : forest_(as_forest(lights)), receiver_(receiver), oracle_(oracle), options_(options), policy_(policy),
+          refinement_options_(detail::refinement_options(forest_, options_)) {
+        auto p = problem();
+        refinement_.start(p);
+        evaluate_fresh(p);
+    }
+    /// The cut would refer to a receiver that is gone.
+    template <TreeOrForest Lights, class... Rest>
+    Lightcut(const Lights&, const R&&, const Rest&...) = delete;
+
+    /// One round; false, having done nothing, when the cut is final.
+    bool step() {
+        auto p = problem();
+        if (!refinement_.split(p, refinement_options_)) return false;
+        evaluate_fresh(p);
+        return true;
+    }
+
+    /// The estimate from the cut as it is.
+    CutResult<S> result() const { return detail::cut_result(refinement_, totals_); }
+
+    /// The cut, in two parts.
+    std::span<const CutNode<S>> active() const { return refinement_.active(); }
+    std::span<const CutNode<S>> resting() const { return refinement_.resting(); }
+
+private:
+    auto problem() {
+        return LightcutProblem<Forest, R, Oracle, Policy>(forest_, receiver_, oracle_, policy_, options_, totals_,
+                                                          queries_);
+    }
+
+    template <class P>
+    void evaluate_fresh(P& p) {
+        if constexpr (BatchedOracle<Oracle>) {
+            answers_.resize(queries_.size());
+            if (!queries_.empty()) oracle_.many(std::span<const VisibilityQuery>(queries_), std::span(answers_));
+            p.receive(refinement_.fresh(), std::span<const float>(answers_));
+            queries_.clear();
+        } else {
+            p.evaluate(refinement_.fresh());
+        }
+        refinement_.absorb(p);
+    }
+
+    Forest forest_;
+    const R& receiver_;
+    const Oracle& oracle_;
+    LightcutOptions options_;
+    Policy policy_;
+    RefinementOptions refinement_options_;
+    Refinement<CutNode<S>> refinement_;
+    CutTotals<S> totals_;
+    std::vector<VisibilityQuery> queries_;
+    std::vector<float> answers_;
+};
+
+template <TreeOrForest Lights, class R, class Oracle, class... Rest>
+Lightcut(const Lights&, const R&, const Oracle&, const Rest&...) -> Lightcut<forest_of<Lights>, R, Oracle>;
+template <TreeOrForest Lights, class R, class Oracle, class Policy>
+Lightcut(const Lights&, const R&, const Oracle&, const LightcutOptions&, const Policy&)
+    -> Lightcut<forest_of<Lights>, R, Oracle, Policy>;
+
+namespace detail {
+
+template <class Forest, class M, class Oracle, class Policy>
+void shade_one_by_one(const Forest& forest, std::span<const Receiver<M>> receivers, const Oracle& oracle,
+                      std::span<CutResult<typename Forest::spectrum>> results,
+                      LightcutScratch<typename Forest::spectrum>& scratch, const LightcutOptions& options,
+                      const Policy& policy) {
+    const RefinementOptions refinement = refinement_options(forest, options);
+    if (scratch.slots.empty()) scratch.slots.resize(1);
+    auto& slot = scratch.slots.front();
+    for (std::size_t i = 0; i < receivers.size(); ++i) {
+        LightcutProblem<Forest, Receiver<M>, Oracle, Policy> problem(forest, receivers[i], oracle, policy, options,
+                                                                    slot.totals, scratch.queries);
+        slot.refinement.run(problem, refinement);
+        results[i] = cut_result(slot.refinement, slot.totals);
+    }
+}
+
+template <class Forest, class M, class Oracle, class Policy>
+void shade_in_lock_step(const Forest& forest, std::span<const Receiver<M>> receivers, const Oracle& oracle,
+                        std::span<CutResult<typename Forest::spectrum>> results,
+                        LightcutScratch<typename Forest::spectrum>& scratch, const LightcutOptions& options,
+                        const Policy& policy) {
+    const RefinementOptions refinement = refinement_options(forest, options);
+    const auto problem_of = [&](std::size_t i, auto& slot) {
+        return LightcutProblem<Forest, Receiver<M>, Oracle, Policy>(forest, receivers[i], oracle, policy, options,
+                                                                   slot.totals, scratch.queries);
+    };
+    if (scratch.slots.size() < receivers.size()) scratch.slots.resize(receivers.size());
+    scratch.queries.clear();
+    for (std::size_t i = 0; i < receivers.size(); ++i) {
+        auto& slot = scratch.slots[i];
+        auto problem = problem_of(i, slot);
+        slot.refinement.start(problem);
+        slot.running = true;
+    }
+    for (bool any = !receivers.empty(); any;) {
+        // Step 1: one stream of shadow rays for all receivers.
+        scratch.answers.resize(scratch.queries.size());
+        if (!scratch.queries.empty()) {
+            oracle.many(std::span<const VisibilityQuery>(scratch.queries), std::span(scratch.answers));
+        }
+        scratch.queries.clear();
+        // Step 2: each takes its answers, in the order of its queries, and asks the next.
+        any = false;
+        std::span<const float> answers(scratch.answers);
+        for (std::size_t i = 0; i < receivers.size(); ++i) {
+            auto& slot = scratch.slots[i];
+            if (!slot.running) continue;
+            auto problem = problem_of(i, slot);
+            answers = problem.receive(slot.refinement.fresh(), answers);
+            slot.refinement.absorb(problem);
+            slot.running = slot.refinement.split(problem, refinement);
+            any = any || slot.running;
+            if (!slot.running) results[i] = cut_result(slot.refinement, slot.totals);
+        }
+    }
+}
+
+}  // namespace detail
+
+/// Shades receivers by lightcuts [Lightcuts 2005, section 3]: `results[i]` is the light that leaves `receivers[i]`.
+/// With a batched oracle all receivers advance in lock-step, so that their shadow rays form long streams; some 64 is
+/// enough. The result of a receiver does not depend on the others.
+/// threads: safe with one scratch each. cost: about one shadow ray and three bounds for two clusters on the cut.
+/// pre: results.size() >= receivers.size().
+template <TreeOrForest Lights, class M, class Oracle, class Policy = TwoStageBounds>
+void shade(const Lights& lights, std::span<const Receiver<M>> receivers, const Oracle& oracle,
+           std::span<CutResult<forest_spectrum<Lights>>> results, LightcutScratch<forest_spectrum<Lights>>& scratch,
+           const LightcutOptions& options = {}, const Policy& policy = {}) {
+    LIGHTCUTS_ASSERT(results.size() >= receivers.size());
+    const auto& forest = as_forest(lights);
+    if constexpr (BatchedOracle<Oracle>) {
+        detail::shade_in_lock_step(forest, receivers, oracle, results, scratch, options, policy);
+    } else {
+        detail::shade_one_by_one(forest, receivers, oracle, results, scratch, options, policy);
+    }
+}
+
+/// The same for vectors.
+template <TreeOrForest Lights, class M, class Oracle, class Policy = TwoStageBounds>
+void shade(const Lights& lights, const std::vector<Receiver<M>>& receivers, const Oracle& oracle,
+           std::vector<CutResult<forest_spectrum<Lights>>>& results,
+           LightcutScratch<forest_spectrum<Lights>>& scratch, const LightcutOptions& options = {},
+           const Policy& policy = {}) {
+    results.resize(receivers.size());
+    shade(lights, std::span<const Receiver<M>>(receivers), oracle, std::span(results), scratch, options, policy);
+}
+
+/// Shades one receiver.
+template <TreeOrForest Lights, class M, class Oracle = AlwaysVisible, class Policy = TwoStageBounds>
+CutResult<forest_spectrum<Lights>> shade(const Lights& lights, const Receiver<M>& receiver, const Oracle& oracle = {},
+                                         const LightcutOptions& options = {}, const Policy& policy = {}) {
+    Lightcut<forest_of<Lights>, Receiver<M>, Oracle, Policy> cut(lights, receiver, oracle, options, policy);
+    while (cut.step()) {
+    }
+    return cut.result();
+}
+
+}  // namespace lightcuts

@@ -1,0 +1,303 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "../bound/policy.hpp"
+#include "../core/random.hpp"
+#include "../material/terms.hpp"
+#include "../visibility/oracle.hpp"
+#include "forest.hpp"
+#include "options.hpp"
+#include "refinement.hpp"
+
+namespace lightcuts {
+
+/// A cluster on a lightcut.
+template <Spectrum S>
+struct CutNode {
+    std::uint32_t node = 0;            ///< in its tree
+    std::uint32_t representative = 0;  ///< leaf of the tree that stands for the cluster
+    S terms{};                         ///< the representative's material x geometric x visibility terms
+    S estimate{};                      ///< terms x cluster intensity [Lightcuts 2005, Eq. 2]
+    S unit_bound{};                    ///< upper bound of material x geometric terms, the cluster's or its parent's
+    S bound{};                         ///< upper bound of the cluster's error; 0 for a single light
+    std::uint8_t kind = 0;             ///< tree of the forest
+    bool bounded = false;              ///< `unit_bound` is the cluster's own
+    bool queried = false;              ///< `terms` waits for the answer to a shadow ray
+};
+
+/// Radiance sums of one receiver's cut, in double.
+template <Spectrum S>
+struct CutTotals {
+    static constexpr std::size_t channels = static_cast<std::size_t>(channels_of<S>);
+    using Sums = std::array<double, channels>;
+
+    Sums total{};         ///< running sum of the estimates
+    double largest = 0;   ///< largest running sum since it was last computed afresh
+    Sums weight{};        ///< 1 / (total + adaptation): what turns a bound into a priority
+    Sums least{};         ///< least weights since the last mark
+    std::uint32_t queries = 0;
+};
+
+/// Lightcuts as a refinement problem, for one receiver [Lightcuts 2005, section 3]. A view of the caller's data.
+template <class Forest, class R, class Oracle, class Policy>
+class LightcutProblem {
+public:
+    using S = typename Forest::spectrum;
+    using node = CutNode<S>;
+
+    LightcutProblem(const Forest& forest, const R& receiver, const Oracle& oracle, const Policy& policy,
+                    const LightcutOptions& options, CutTotals<S>& totals, std::vector<VisibilityQuery>& queries)
+        : forest_(forest), receiver_(receiver), oracle_(oracle), policy_(policy), options_(options), totals_(totals),
+          queries_(queries) {}
+
+    void roots(std::vector<node>& out) {
+        totals_ = {};
+        forest_.for_each([&](std::uint32_t kind, const auto& tree) {
+            if (!tree.empty()) make_node(tree, kind, tree.topology().root(), unbounded(), out);
+        });
+    }
+
+    void split(const node& parent, std::vector<node>& out) {
+        add(parent.estimate, -1.0);
+        forest_.visit(parent.kind, [&](const auto& tree) {
+            const std::uint32_t right = tree.topology().right(parent.node);
+            const std::uint32_t left = tree.topology().left(parent.node);
+            // The child that holds the parent's representative keeps it, and its terms with it.
+            const bool in_left = parent.representative <= left;
+            inherit_node(tree, parent, in_left ? left : right, out);
+            make_node(tree, parent.kind, in_left ? right : left, parent.unit_bound, out);
+        });
+    }
+
+    /// Replaces bounds inherited from parents by the clusters' own. Most clusters on a final cut never need one.
+    void tighten(std::span<node* const> nodes) {
+        for (std::size_t begin = 0; begin < nodes.size();) {
+            if (nodes[begin]->bounded) {
+                ++begin;
+                continue;
+            }
+            // Step 1: collect clusters of one kind.
+            std::array<node*, batch> members;
+            std::size_t count = 0;
+            const std::uint8_t kind = nodes[begin]->kind;
+            for (; begin < nodes.size() && count < batch && nodes[begin]->kind == kind; ++begin) {
+                if (!nodes[begin]->bounded) members[count++] = nodes[begin];
+            }
+            forest_.visit(kind, [&](const auto& tree) { bound_nodes(tree, std::span(members).first(count)); });
+        }
+    }
+
+    /// Traces the shadow rays of new nodes one by one.
+    void evaluate(std::span<node> fresh) {
+        for (node& n : fresh) {
+            if (n.queried) {
+                receive(n, forest_.visit(n.kind, [&](const auto& tree) {
+                    const auto& light = tree.lights()[tree.topology().item(n.representative)];
+                    return static_cast<float>(oracle_(receiver_, light));
+                }));
+            }
+            add(n.estimate, 1.0);
+        }
+    }
+
+    /// Takes the answers to the queries that `fresh` gave rise to, in their order; returns those left over.
+    std::span<const float> receive(std::span<node> fresh, std::span<const float> answers) {
+        for (node& n : fresh) {
+            if (n.queried) {
+                receive(n, answers.front());
+                answers = answers.subspan(1);
+            }
+            add(n.estimate, 1.0);
+        }
+        return answers;
+    }
+
+    bool settled(const node& n) const { return is_black(n.bound); }
+
+    void observe(std::span<const node> active, std::span<const node> resting) {
+        // Differences of a sum that was once much larger are noise.
+        constexpr double cancellation = 1e6;
+        double smallest = totals_.total[0];
+        for (const double t : totals_.total) smallest = t < smallest ? t : smallest;
+        if (!(totals_.largest <= cancellation * smallest)) {
+            totals_.total = {};
+            totals_.largest = 0.0;
+            for (const node& n : active) add(n.estimate, 1.0);
+            for (const node& n : resting) add(n.estimate, 1.0);
+        }
+        for (std::size_t c = 0; c < totals_.total.size(); ++c) {
+            const double reference = totals_.total[c] + 0.1 * static_cast<double>(options_.adaptation);
+            // Against darkness every bound is too large, and larger bounds are refined first.
+            totals_.weight[c] = reference > 1e-150 ? 1.0 / reference : 1e150;
+            totals_.least[c] = totals_.weight[c] < totals_.least[c] ? totals_.weight[c] : totals_.least[c];
+        }
+    }
+
+    void mark() { totals_.least = totals_.weight; }
+
+    double growth() const {
+        double largest = 0.0;
+        for (std::size_t c = 0; c < totals_.weight.size(); ++c) {
+            const double factor = totals_.weight[c] / totals_.least[c];
+            largest = factor > largest ? factor : largest;
+        }
+        return largest == largest ? largest : std::numeric_limits<double>::infinity();
+    }
+
+    double priority(const node& n) const {
+        double largest = 0.0;
+        for (int c = 0; c < channels_of<S>; ++c) {
+            const double p = static_cast<double>(channel(n.bound, c)) * totals_.weight[static_cast<std::size_t>(c)];
+            largest = p > largest ? p : largest;
+        }
+        return largest;
+    }
+
+    double threshold() const { return static_cast<double>(options_.error_ratio); }
+
+    /// Clusters around the receiver, whose bounds are infinite, go by intensity over squared diagonal.
+    bool before(const node& a, const node& b) const {
+        const double density_a = density(a), density_b = density(b);
+        if (density_a != density_b) return density_a > density_b;
+        if (a.kind != b.kind) return a.kind < b.kind;
+        return a.node < b.node;
+    }
+
+private:
+    static constexpr std::size_t batch = 16;
+
+    static S unbounded() {
+        return make_spectrum<S>([](int) { return std::numeric_limits<float>::infinity(); });
+    }
+
+    /// Appends a node with what its parent's bound says of it. In place: a node is too large to be passed around.
+    template <class Tree>
+    static node& add_node(const Tree& tree, std::uint32_t kind, std::uint32_t index, const S& unit_bound,
+                          std::vector<node>& out) {
+        node& n = out.emplace_back();
+        n.node = index;
+        n.kind = static_cast<std::uint8_t>(kind);
+        n.unit_bound = unit_bound;
+        // A single light is exact.
+        if (!tree.topology().is_leaf(index)) {
+            n.bound = detail::multiply_bounds(unit_bound, tree.clusters()[index].intensity);
+        }
+        return n;
+    }
+
+    /// Appends a node with a representative of its own.
+    template <class Tree>
+    void make_node(const Tree& tree, std::uint32_t kind, std::uint32_t index, const S& unit_bound,
+                   std::vector<node>& out) {
+        node& n = add_node(tree, kind, index, unit_bound, out);
+        if (tree.topology().is_leaf(index)) {
+            n.representative = index;
+        } else {
+            const std::uint64_t choice = tree.representatives().single()
+                                             ? 0
+                                             : hash_keys(options_.seed, receiver_.id, kind, index);
+            n.representative = tree.representatives().draw(index, choice);
+        }
+        const std::uint32_t item = tree.topology().item(n.representative);
+        const auto& light = tree.lights()[item];
+        n.terms = unshadowed_terms(receiver_, light);
+        if (is_black(n.terms)) return;
+        n.estimate = finite(S(n.terms * tree.clusters()[index].intensity));
+        if constexpr (std::same_as<Oracle, AlwaysVisible>) return;
+        n.queried = true;
+        ++totals_.queries;
+        if constexpr (BatchedOracle<Oracle>) {
+            using L = typename Tree::light_type;
+            VisibilityQuery& query = queries_.emplace_back();
+            query.from = receiver_.shadow_origin;
+            query.receiver = receiver_.id;
+            query.to = place_of(light);
+            query.light = item;
+            query.kind = kind;
+            query.distant = DirectionalLight<L>;
+        }
+    }
+
+    /// Appends the child that holds its parent's representative: its terms are known.
+    template <class Tree>
+    static void inherit_node(const Tree& tree, const node& parent, std::uint32_t index, std::vector<node>& out) {
+        node& n = add_node(tree, parent.kind, index, parent.unit_bound, out);
+        n.representative = parent.representative;
+        n.terms = parent.terms;
+        n.estimate = finite(S(n.terms * tree.clusters()[index].intensity));
+    }
+
+    template <class Tree>
+    void bound_nodes(const Tree& tree, std::span<node* const> nodes) const {
+        using Cluster = typename Tree::cluster;
+        std::array<const Cluster*, batch> clusters;
+        std::array<S, batch> units;
+        for (std::size_t i = 0; i < nodes.size(); ++i) clusters[i] = &tree.clusters()[nodes[i]->node];
+        if constexpr (requires { policy_.quick_many(receiver_.material, receiver_.position, clusters.data(), nodes.size(), units.data()); }) {
+            policy_.quick_many(receiver_.material, receiver_.position, clusters.data(), nodes.size(), units.data());
+        } else {
+            for (std::size_t i = 0; i < nodes.size(); ++i) {
+                units[i] = policy_.quick(receiver_.material, *clusters[i], receiver_.position);
+            }
+        }
+        for (std::size_t i = 0; i < nodes.size(); ++i) {
+            node& n = *nodes[i];
+            lower_bound(n, units[i], *clusters[i]);
+            n.bounded = true;
+            if constexpr (TwoStagePolicy<Policy>) {
+                // The dear bound is worth it only where it may change the decision.
+                const double p = priority(n);
+                if (p > threshold() && p < policy_.doubt * threshold()) {
+                    lower_bound(n, policy_.tight(receiver_.material, *clusters[i], receiver_.position), *clusters[i]);
+                }
+            }
+        }
+    }
+
+    template <class Cluster>
+    static void lower_bound(node& n, const S& unit, const Cluster& cluster) {
+        n.unit_bound = make_spectrum<S>([&](int c) {
+            const float a = channel(n.unit_bound, c), b = channel(unit, c);
+            return b < a ? b : a;
+        });
+        n.bound = detail::multiply_bounds(n.unit_bound, cluster.intensity);
+    }
+
+    void receive(node& n, float visibility) const {
+        n.queried = false;
+        if (visibility == 1.0f) return;
+        n.terms = n.terms * visibility;
+        n.estimate = n.estimate * visibility;
+    }
+
+    void add(const S& estimate, double sign) {
+        for (int c = 0; c < channels_of<S>; ++c) {
+            double& total = totals_.total[static_cast<std::size_t>(c)];
+            total += sign * static_cast<double>(channel(estimate, c));
+            totals_.largest = total > totals_.largest ? total : totals_.largest;
+        }
+    }
+
+    double density(const node& n) const {
+        return forest_.visit(n.kind, [&](const auto& tree) {
+            const auto& cluster = tree.clusters()[n.node];
+            const double size2 = diagonal2(cluster.box);
+            return size2 > 0.0 ? channel_sum(cluster.intensity) / size2 : std::numeric_limits<double>::infinity();
+        });
+    }
+
+    const Forest& forest_;
+    const R& receiver_;
+    const Oracle& oracle_;
+    const Policy& policy_;
+    const LightcutOptions& options_;
+    CutTotals<S>& totals_;
+    std::vector<VisibilityQuery>& queries_;
+};
+
+}  // namespace lightcuts

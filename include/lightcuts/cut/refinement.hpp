@@ -1,0 +1,249 @@
+#pragma once
+
+#include <algorithm>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace lightcuts {
+
+/// What the refinement engine asks of a problem. It knows neither trees nor light.
+///
+/// - `node`: a value; nothing else is stored.
+/// - `roots(out)`: appends the starting frontier.
+/// - `evaluate(span of new nodes)`: one batch, possibly nothing. Every node passes through it once.
+/// - `priority(node)`: not negative, possibly infinite, never NaN. Use bounds, never what an estimate happened to
+///   show: that biases sums.
+/// - `threshold()`: nodes of a priority above it are refined. May change between rounds.
+/// - `split(node, out)`: appends the two nodes that replace it.
+/// - `before(a, b)`: a total order that breaks ties of priority, infinite ones above all.
+///
+/// Optional:
+/// - `settled(node)`: true if the node can never be refined; the engine then looks at it no more.
+/// - `tighten(span of pointers to nodes)`: lowers priorities where it pays, before any of the nodes is split. The nodes
+///   are all those above the threshold; a node may come again.
+/// - `observe(span, span)`: called before each round with the whole frontier in two parts, so that the problem can sum
+///   up where it has lost count.
+/// - `mark()` and `growth()`: the second bounds the factor by which any priority has grown since the first was called.
+///   Spares the engine from looking at nodes far below the threshold in every round.
+template <class P>
+concept RefinementProblem = requires(P p, const P c, typename P::node& n, const typename P::node& m,
+                                     std::vector<typename P::node>& out) {
+    p.roots(out);
+    { c.priority(m) } -> std::convertible_to<double>;
+    { c.threshold() } -> std::convertible_to<double>;
+    p.split(m, out);
+    { c.before(m, m) } -> std::convertible_to<bool>;
+    p.evaluate(std::span(&n, 1));
+};
+
+/// Why a refinement ended.
+enum class StopReason : std::uint8_t {
+    converged,   ///< no node is above the threshold
+    limit,       ///< the maximum number of nodes is reached
+    unfinished,  ///< the caller stopped early, for instance on a time budget
+};
+
+struct RefinementOptions {
+    /// Largest number of nodes in the cut; the starting frontier is kept even if it is larger.
+    std::size_t max_nodes = std::numeric_limits<std::size_t>::max();
+    /// A round splits nodes down to this fraction of the largest finite priority. 1: one at a time, the order of
+    /// the papers; 0.25: a tenth of the rounds for under one per cent more nodes.
+    double round_fraction = 0.25;
+};
+
+/// The one refinement engine: a frontier of nodes, refined in rounds until no priority is above the threshold or
+/// the limit is reached, which is never overshot. Resumable: `step` performs one round. Its two halves, `split` and
+/// `absorb`, are for callers that evaluate the new nodes of many refinements in one batch.
+/// Reusable: no allocation once warm.
+template <class Node>
+class Refinement {
+public:
+    /// Starts afresh; the roots then wait in `fresh` for evaluation.
+    template <RefinementProblem P>
+    void start(P& problem) {
+        active_.clear();
+        resting_.clear();
+        fresh_.clear();
+        stop_ = StopReason::unfinished;
+        problem.roots(fresh_);
+        if constexpr (tells_growth<P>) problem.mark();
+    }
+
+    /// First half of a round: moves the nodes to be refined out of the frontier and their children into `fresh`.
+    /// Returns false, leaving `fresh` empty, when the refinement has ended. pre: the last `fresh` was absorbed.
+    template <RefinementProblem P>
+    bool split(P& problem, const RefinementOptions& options) {
+        if constexpr (requires { problem.observe(std::span<const Node>(), std::span<const Node>()); }) {
+            problem.observe(std::span<const Node>(active_), std::span<const Node>(resting_));
+        }
+        if constexpr (tells_growth<P>) {
+            if (problem.growth() * rest_below > 1.0) {
+                wake(problem);
+                problem.mark();
+            }
+        }
+        if (!select(problem, options)) {
+            stop_ = StopReason::converged;
+            return false;
+        }
+        const std::size_t room = options.max_nodes > size() ? options.max_nodes - size() : 0;
+        if (chosen_.size() > room) keep_largest(problem, room);
+        if (chosen_.empty()) {
+            stop_ = StopReason::limit;
+            return false;
+        }
+        replace_chosen(problem);
+        return true;
+    }
+
+    /// Second half of a round: evaluated `fresh` nodes join the frontier.
+    template <RefinementProblem P>
+    void absorb(const P& problem) {
+        for (const Node& node : fresh_) (is_settled(problem, node) ? resting_ : active_).push_back(node);
+        fresh_.clear();
+    }
+
+    /// One round. Returns false, having done nothing, when the refinement has ended.
+    template <RefinementProblem P>
+    bool step(P& problem, const RefinementOptions& options) {
+        if (!fresh_.empty()) {  // the roots
+            problem.evaluate(std::span(fresh_));
+            absorb(problem);
+            return true;
+        }
+        if (!split(problem, options)) return false;
+        problem.evaluate(std::span(fresh_));
+        absorb(problem);
+        return true;
+    }
+
+    /// Refines to the end.
+    template <RefinementProblem P>
+    void run(P& problem, const RefinementOptions& options) {
+        start(problem);
+        while (step(problem, options)) {
+        }
+    }
+
+    /// Nodes that wait for evaluation.
+    std::span<Node> fresh() { return fresh_; }
+    /// The cut, in two parts.
+    std::span<const Node> active() const { return active_; }
+    std::span<const Node> resting() const { return resting_; }
+    /// Number of nodes in the cut.
+    std::size_t size() const { return active_.size() + resting_.size(); }
+    StopReason stop_reason() const { return stop_; }
+
+private:
+    struct Candidate {
+        std::uint32_t at;
+        double priority;
+    };
+
+    /// Fills `chosen_` with what a round would split, in frontier order; false if nothing is above the threshold.
+    template <class P>
+    bool select(P& problem, const RefinementOptions& options) {
+        const double threshold = problem.threshold();
+        chosen_.clear();
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < active_.size(); ++i) {
+            const double priority = problem.priority(active_[i]);
+            if constexpr (tells_growth<P>) {
+                if (priority <= rest_below * threshold) {
+                    resting_.push_back(active_[i]);
+                    continue;
+                }
+            }
+            if (priority > threshold) chosen_.push_back({static_cast<std::uint32_t>(kept), priority});
+            if (kept != i) active_[kept] = active_[i];
+            ++kept;
+        }
+        active_.erase(active_.begin() + static_cast<std::ptrdiff_t>(kept), active_.end());
+        if constexpr (requires { problem.tighten(std::span<Node* const>()); }) {
+            pointers_.clear();
+            for (const Candidate& candidate : chosen_) pointers_.push_back(&active_[candidate.at]);
+            problem.tighten(std::span<Node* const>(pointers_));
+            for (Candidate& candidate : chosen_) candidate.priority = problem.priority(active_[candidate.at]);
+        }
+        keep_top(options.round_fraction, threshold);
+        return !chosen_.empty();
+    }
+
+    /// Keeps the candidates above the threshold that are infinite or not below a fraction of the largest finite one.
+    void keep_top(double fraction, double threshold) {
+        constexpr double infinity = std::numeric_limits<double>::infinity();
+        double largest = 0.0;
+        for (const Candidate& candidate : chosen_) {
+            if (candidate.priority < infinity && candidate.priority > largest) largest = candidate.priority;
+        }
+        const double cutoff = fraction * largest;
+        std::erase_if(chosen_, [&](const Candidate& candidate) {
+            return !(candidate.priority > threshold) || candidate.priority < cutoff;
+        });
+    }
+
+    /// Keeps the `count` candidates of largest priority, in frontier order.
+    template <class P>
+    void keep_largest(const P& problem, std::size_t count) {
+        const auto larger = [&](const Candidate& a, const Candidate& b) {
+            if (a.priority != b.priority) return a.priority > b.priority;
+            return problem.before(active_[a.at], active_[b.at]);
+        };
+        const auto middle = chosen_.begin() + static_cast<std::ptrdiff_t>(count);
+        std::nth_element(chosen_.begin(), middle, chosen_.end(), larger);
+        chosen_.erase(middle, chosen_.end());
+        std::sort(chosen_.begin(), chosen_.end(),
+                  [](const Candidate& a, const Candidate& b) { return a.at < b.at; });
+    }
+
+    template <class P>
+    void replace_chosen(P& problem) {
+        for (const Candidate& candidate : chosen_) problem.split(active_[candidate.at], fresh_);
+        for (std::size_t c = chosen_.size(); c-- > 0;) {
+            active_[chosen_[c].at] = active_.back();
+            active_.pop_back();
+        }
+    }
+
+    /// Nodes at rest that can be refined become active again.
+    template <class P>
+    void wake(const P& problem) {
+        std::size_t kept = 0;
+        for (const Node& node : resting_) {
+            if (is_settled(problem, node)) {
+                resting_[kept++] = node;
+            } else {
+                active_.push_back(node);
+            }
+        }
+        resting_.erase(resting_.begin() + static_cast<std::ptrdiff_t>(kept), resting_.end());
+    }
+
+    template <class P>
+    static bool is_settled(const P& problem, const Node& node) {
+        if constexpr (requires { problem.settled(node); }) return problem.settled(node);
+        return false;
+    }
+
+    template <class P>
+    static constexpr bool tells_growth = requires(P p) {
+        p.mark();
+        { p.growth() } -> std::convertible_to<double>;
+    };
+
+    /// Nodes below this fraction of the threshold rest until priorities have grown by its inverse.
+    static constexpr double rest_below = 0.9;
+
+    std::vector<Node> active_;
+    std::vector<Node> resting_;  ///< settled, or far below the threshold
+    std::vector<Node> fresh_;
+    std::vector<Candidate> chosen_;
+    std::vector<Node*> pointers_;
+    StopReason stop_ = StopReason::unfinished;
+};
+
+}  // namespace lightcuts

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "../cut/forest.hpp"
+#include "../material/terms.hpp"
+#include "../visibility/oracle.hpp"
+
+namespace lightcuts {
+
+/// What shading a receiver light by light yields.
+template <Spectrum S>
+struct Estimate {
+    S radiance{};
+    std::uint32_t queries = 0;  ///< shadow rays asked of the oracle
+};
+
+/// Storage that the estimators reuse; one for each thread. No allocation once warm.
+template <Spectrum S>
+struct EstimateScratch {
+    /// A light that would contribute if nothing shadowed it.
+    struct Contribution {
+        S radiance;
+        std::uint32_t light;
+        std::uint32_t kind;
+    };
+    std::vector<Contribution> contributions;
+    std::vector<double> sums;
+    std::vector<VisibilityQuery> queries;
+    std::vector<float> answers;
+};
+
+namespace detail {
+
+/// Unshadowed contribution of one light: terms x intensity.
+template <class M, Light L>
+spectrum_of<L> unshadowed(const Receiver<M>& receiver, const L& light) {
+    return finite(spectrum_of<L>(unshadowed_terms(receiver, light) * intensity_of(light)));
+}
+
+template <Spectrum S>
+struct RadianceSum {
+    std::array<double, static_cast<std::size_t>(channels_of<S>)> sum{};
+
+    void add(const S& radiance, double weight) {
+        for (int c = 0; c < channels_of<S>; ++c) {
+            sum[static_cast<std::size_t>(c)] += static_cast<double>(channel(radiance, c)) * weight;
+        }
+    }
+    S value() const {
+        return finite(make_spectrum<S>([this](int c) { return sum[static_cast<std::size_t>(c)]; }));
+    }
+};
+
+/// Asks the oracle about `contributions` and calls `take(contribution, visibility)` for each, in order.
+template <class Forest, class M, class Oracle, Spectrum S, class Contribution, class Take>
+void ask(const Forest& forest, const Receiver<M>& receiver, const Oracle& oracle, EstimateScratch<S>& scratch,
+         std::span<const Contribution> contributions, Take&& take) {
+    if constexpr (BatchedOracle<Oracle>) {
+        scratch.queries.clear();
+        for (const Contribution& c : contributions) {
+            forest.visit(c.kind, [&](const auto& tree) {
+                const auto& light = tree.lights()[c.light];
+                using L = typename std::remove_cvref_t<decltype(tree)>::light_type;
+                scratch.queries.push_back({receiver.shadow_origin, receiver.id, place_of(light), c.light, c.kind,
+                                           DirectionalLight<L>});
+            });
+        }
+        scratch.answers.resize(scratch.queries.size());
+        if (!scratch.queries.empty()) {
+            oracle.many(std::span<const VisibilityQuery>(scratch.queries), std::span(scratch.answers));
+        }
+        for (std::size_t i = 0; i < contributions.size(); ++i) take(contributions[i], scratch.answers[i]);
+    } else {
+        for (const Contribution& c : contributions) {
+            take(c, forest.visit(c.kind, [&](const auto& tree) {
+                return static_cast<float>(oracle(receiver, tree.lights()[c.light]));
+            }));
+        }
+    }
+}
+
+}  // namespace detail
+
+}  // namespace lightcuts

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <algorithm>
+
+#include "../core/random.hpp"
+#include "estimate.hpp"
+
+namespace lightcuts {
+
+/// Chances of lights proportional to their intensities, over all kinds of a forest. Immutable; made once a scene.
+class PowerDistribution {
+public:
+    struct Choice {
+        std::uint32_t kind;
+        std::uint32_t light;
+        double probability;
+    };
+
+    template <TreeOrForest Lights>
+    explicit PowerDistribution(const Lights& lights) {
+        double sum = 0.0;
+        as_forest(lights).for_each([&](std::uint32_t, const auto& tree) {
+            first_.push_back(static_cast<std::uint32_t>(cumulative_.size()));
+            for (const auto& light : tree.lights()) {
+                sum += channel_sum(detail::intensity_of(light));
+                cumulative_.push_back(sum);
+            }
+        });
+    }
+
+    /// True if no light is lit.
+    bool empty() const { return cumulative_.empty() || !(cumulative_.back() > 0.0); }
+
+    /// The light at `u` in [0, 1) of the total. pre: !empty().
+    Choice choose(double u) const {
+        auto found = std::upper_bound(cumulative_.begin(), cumulative_.end(), u * cumulative_.back());
+        if (found == cumulative_.end()) {  // rounding: the last lit light
+            found = std::lower_bound(cumulative_.begin(), cumulative_.end(), cumulative_.back());
+        }
+        const auto at = static_cast<std::uint32_t>(found - cumulative_.begin());
+        std::uint32_t kind = 0;
+        while (kind + 1 < first_.size() && first_[kind + 1] <= at) ++kind;
+        const double before = at > 0 ? cumulative_[at - 1] : 0.0;
+        return {kind, at - first_[kind], (cumulative_[at] - before) / cumulative_.back()};
+    }
+
+private:
+    std::vector<double> cumulative_;
+    std::vector<std::uint32_t> first_;  ///< of each kind
+};
+
+/// Estimates the sum over all lights from `samples` of them, drawn in proportion to intensity and stratified.
+/// Unbiased. cost: `samples` terms and shadow rays, whatever the number of lights.
+template <class Forest, class M, class Oracle>
+Estimate<typename Forest::spectrum> power_sampling(const Forest& forest, const PowerDistribution& distribution,
+                                                   const Receiver<M>& receiver, const Oracle& oracle,
+                                                   std::uint32_t samples, std::uint64_t seed,
+                                                   EstimateScratch<typename Forest::spectrum>& scratch) {
+    using S = typename Forest::spectrum;
+    using Contribution = typename EstimateScratch<S>::Contribution;
+    Estimate<S> result;
+    if (distribution.empty()) return result;
+    scratch.contributions.clear();
+    for (std::uint32_t k = 0; k < samples; ++k) {
+        const double jitter = to_unit(hash_keys(seed, receiver.id, k));
+        const auto choice = distribution.choose((k + jitter) / samples);
+        const S radiance = forest.visit(
+            choice.kind, [&](const auto& tree) { return detail::unshadowed(receiver, tree.lights()[choice.light]); });
+        if (is_black(radiance)) continue;
+        const auto weight = static_cast<float>(1.0 / (choice.probability * samples));
+        scratch.contributions.push_back({finite(S(radiance * weight)), choice.light, choice.kind});
+    }
+    detail::RadianceSum<S> sum;
+    detail::ask(forest, receiver, oracle, scratch, std::span<const Contribution>(scratch.contributions),
+                [&](const Contribution& c, float visibility) {
+                    sum.add(c.radiance, static_cast<double>(visibility));
+                });
+    result.queries = static_cast<std::uint32_t>(scratch.contributions.size());
+    result.radiance = sum.value();
+    return result;
+}
+
+/// The same in one call, by the lights of a tree or a forest.
+template <TreeOrForest Lights, class M, class Oracle>
+Estimate<forest_spectrum<Lights>> power_sampling(const Lights& lights, const PowerDistribution& distribution,
+                                                 const Receiver<M>& receiver, const Oracle& oracle,
+                                                 std::uint32_t samples, std::uint64_t seed) {
+    EstimateScratch<forest_spectrum<Lights>> scratch;
+    return power_sampling(as_forest(lights), distribution, receiver, oracle, samples, seed, scratch);
+}
+
+}  // namespace lightcuts

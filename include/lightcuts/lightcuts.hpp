@@ -1,0 +1,23 @@
+#pragma once
+
+/// Everything that shading by lightcuts needs. Library headers never include this file.
+
+#include "cut/lightcut.hpp"
+#include "estimate/exhaustive.hpp"
+#include "estimate/power.hpp"
+#include "estimate/ward.hpp"
+#include "light/directional.hpp"
+#include "light/omni.hpp"
+#include "light/oriented.hpp"
+#include "light/spot.hpp"
+#include "material/above_horizon.hpp"
+#include "material/capped.hpp"
+#include "material/ggx.hpp"
+#include "material/lambert.hpp"
+#include "material/phong.hpp"
+#include "material/sum.hpp"
+#include "material/ward.hpp"
+#include "tree/agglomerate.hpp"
+#include "tree/light_tree.hpp"
+#include "tree/longest_axis.hpp"
+#include "tree/validate.hpp"

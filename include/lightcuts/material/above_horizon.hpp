@@ -1,0 +1,46 @@
+#pragma once
+
+#include "material.hpp"
+#include "outward.hpp"
+
+namespace lightcuts {
+
+/// A material whose shading normal differs from the surface's: black for lights behind the surface itself, which would
+/// shine through it. `geometric_normal`: unit, on the side of the viewer. `M` may be a reference.
+template <class M>
+    requires Material<std::remove_cvref_t<M>>
+struct AboveHorizon {
+    [[no_unique_address]] M material;
+    glm::vec3 geometric_normal;
+
+    using Inner = std::remove_cvref_t<M>;
+    using S = material_spectrum<Inner>;
+
+    S evaluate(const glm::vec3& to_light) const {
+        return detail::dot(glm::dvec3(geometric_normal), glm::dvec3(to_light)) > 0.0 ? material.evaluate(to_light)
+                                                                                     : S{};
+    }
+    S upper_bound(const OffsetBox& offsets) const requires BoundedMaterial<Inner> {
+        return is_below(offsets) ? S{} : material.upper_bound(offsets);
+    }
+    S quick_upper_bound(const OffsetBox& offsets) const requires BoundedMaterial<Inner> {
+        return is_below(offsets) ? S{} : cheapest_upper_bound(material, offsets);
+    }
+    /// Exceeds the material below the horizon, so a bound from it should be compared with `upper_bound`.
+    CosineLobe<S> cosine_lobe() const requires CosineLobeMaterial<Inner> { return material.cosine_lobe(); }
+    /// Calls f for each component of the material, as seen above this horizon.
+    template <class F>
+    void for_each_component(F&& f) const requires CompositeMaterial<Inner> {
+        material.for_each_component([&]<class C>(const C& component) {
+            f(AboveHorizon<const C&>{component, geometric_normal});
+        });
+    }
+
+private:
+    bool is_below(const OffsetBox& offsets) const { return detail::lies_below(glm::dvec3(geometric_normal), offsets); }
+};
+
+template <class M>
+AboveHorizon(M, glm::vec3) -> AboveHorizon<M>;
+
+}  // namespace lightcuts

@@ -1,0 +1,69 @@
+#pragma once
+
+#include "material.hpp"
+
+namespace lightcuts {
+
+/// The sum of materials; of equal spectra and at one receiver. `Sum{Lambert{...}, Ggx{...}}`.
+template <Material M, Material... Ms>
+    requires(std::same_as<material_spectrum<M>, material_spectrum<Ms>>&&...)
+class Sum {
+public:
+    constexpr explicit Sum(const M& first, const Ms&... rest) : first_(first), rest_(rest...) {}
+
+    material_spectrum<M> evaluate(const glm::vec3& to_light) const {
+        return first_.evaluate(to_light) + rest_.evaluate(to_light);
+    }
+    material_spectrum<M> upper_bound(const OffsetBox& offsets) const
+        requires(BoundedMaterial<M> && (BoundedMaterial<Ms> && ...)) {
+        return first_.upper_bound(offsets) + rest_.upper_bound(offsets);
+    }
+    material_spectrum<M> quick_upper_bound(const OffsetBox& offsets) const
+        requires(BoundedMaterial<M> && (BoundedMaterial<Ms> && ...)) {
+        return cheapest_upper_bound(first_, offsets) + cheapest_upper_bound(rest_, offsets);
+    }
+    /// Calls f(material) for each material that is not itself a composite, in order.
+    template <class F>
+    void for_each_component(F&& f) const {
+        if constexpr (CompositeMaterial<M>) {
+            first_.for_each_component(f);
+        } else {
+            f(first_);
+        }
+        rest_.for_each_component(f);
+    }
+
+private:
+    [[no_unique_address]] M first_;
+    [[no_unique_address]] Sum<Ms...> rest_;
+};
+
+template <Material M>
+class Sum<M> {
+public:
+    constexpr explicit Sum(const M& only) : only_(only) {}
+
+    material_spectrum<M> evaluate(const glm::vec3& to_light) const { return only_.evaluate(to_light); }
+    material_spectrum<M> upper_bound(const OffsetBox& offsets) const requires BoundedMaterial<M> {
+        return only_.upper_bound(offsets);
+    }
+    material_spectrum<M> quick_upper_bound(const OffsetBox& offsets) const requires BoundedMaterial<M> {
+        return cheapest_upper_bound(only_, offsets);
+    }
+    template <class F>
+    void for_each_component(F&& f) const {
+        if constexpr (CompositeMaterial<M>) {
+            only_.for_each_component(f);
+        } else {
+            f(only_);
+        }
+    }
+
+private:
+    [[no_unique_address]] M only_;
+};
+
+template <class... Ms>
+Sum(const Ms&...) -> Sum<Ms...>;
+
+}  // namespace lightcuts

@@ -1,0 +1,157 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <tuple>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include "../core/cone.hpp"
+#include "record.hpp"
+
+namespace lightcuts {
+
+/// The papers' dissimilarity of two clusters: the size of their union, I (alpha^2 + c^2 (1 - cos beta)^2), with its
+/// intensity I, the diagonal alpha of its box, and the half-angle beta of the cone around both clusters' cones
+/// [Walter et al. 2005, Section 4]. Lengths are in units of the diagonal of all items' box.
+struct ClusterSize {
+    double direction = 1;  ///< c for items with an axis, in units of the diagonal; 0 ignores axes
+};
+
+namespace detail {
+
+/// What the greedy builder keeps of a cluster, in the builder's frame.
+template <bool Oriented>
+struct Cluster {
+    std::array<float, 3> lo, hi;
+    double weight;
+    std::uint32_t count;  ///< of items
+    std::uint32_t id;     ///< its smallest item
+};
+
+template <>
+struct Cluster<true> : Cluster<false> {
+    Cone cone;
+    HalfAngle half;         ///< of the cone
+    double inverse_length;  ///< of the axis as stored
+};
+
+/// Order of greedy merging: smaller union first; ties go to the pair with fewer items, then to the smallest item,
+/// then to the smallest item of the other cluster.
+struct Rank {
+    double size;
+    std::uint32_t count, id, other_id;
+
+    friend bool operator<(const Rank& a, const Rank& b) {
+        return std::tie(a.size, a.count, a.id, a.other_id) < std::tie(b.size, b.count, b.id, b.other_id);
+    }
+};
+
+/// Half of the angle between the axes of two cones, with a relative error of a few units of roundoff even where it is
+/// tiny: products of two floats are exact in double. Zero only for equal axes.
+inline HalfAngle half_between_axes(const Cluster<true>& a, const Cluster<true>& b) {
+    if (a.cone.axis == b.cone.axis) return {0, 1};
+    const glm::dvec3 u(a.cone.axis), v(b.cone.axis);
+    const glm::dvec3 w = glm::cross(u, v);
+    const double scale = a.inverse_length * b.inverse_length;
+    const double sine = std::sqrt(std::max(dot(w, w), 1e-60)) * scale;
+    const double cosine = dot(u, v) * scale;
+    if (cosine >= 0) {
+        const double c = std::sqrt(0.5 + 0.5 * cosine);
+        return {0.5 * sine / c, c};
+    }
+    const double s = std::sqrt(0.5 - 0.5 * cosine);
+    return {s, 0.5 * sine / s};
+}
+
+/// 1 - cos beta of the smallest cone around two clusters' cones: beta = max(beta_a, beta_b, (beta_a + beta_b +
+/// angle) / 2), by the addition theorems alone. Relative error: a few units of roundoff.
+inline double merged_one_minus_cos(const Cluster<true>& a, const Cluster<true>& b) {
+    const HalfAngle sum = (a.half + b.half) + half_between_axes(a, b);  // beta, unless one cone holds the other
+    double merged = 2;
+    if (sum.sin >= 0) merged = sum.cos > 0 ? sum.sin * sum.sin / (1 + sum.cos) : 1 - sum.cos;
+    return std::max(merged, std::max(one_minus_cos(a.cone), one_minus_cos(b.cone)));
+}
+
+/// A factor by which a merged cluster counts as larger per item: far above rounding errors, far below what matters.
+/// It makes the size strictly monotone as computed, that is, size(a, b + c) > size(a, b), unless both are zero:
+/// boxes and sums of weights are monotone in floating point; the cone around a and b + c holds that around a and b,
+/// so exact values of 1 - cos beta are monotone and computed ones to 1e-14 or better.
+inline constexpr double growth_per_item = 0x1p-42;
+
+/// The dissimilarity. Not inlined, so that every caller gets the same bits whatever the compiler makes of each.
+/// pre: called with the same order of arguments for the same pair, smaller id first.
+template <bool Oriented>
+[[gnu::noinline]] inline double union_size(const Cluster<Oriented>& a, const Cluster<Oriented>& b, double direction) {
+    double size = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double e = static_cast<double>(std::max(a.hi[i], b.hi[i])) - static_cast<double>(std::min(a.lo[i], b.lo[i]));
+        size += e * e;
+    }
+    if constexpr (Oriented) {
+        const double spread = direction * merged_one_minus_cos(a, b);
+        size += spread * spread;
+    }
+    return (a.weight + b.weight) * size * (1 + growth_per_item * (a.count + b.count));
+}
+
+template <bool Oriented>
+Rank rank(const Cluster<Oriented>& a, const Cluster<Oriented>& b, double direction) {
+    if (b.id < a.id) return rank(b, a, direction);
+    return {union_size<Oriented>(a, b, direction), a.count + b.count, a.id, b.id};
+}
+
+/// Fills what is derived from the cone.
+inline void set_cone(Cluster<true>& cluster, const Cone& cone) {
+    cluster.cone = cone;
+    cluster.half = half_of(cone);
+    cluster.inverse_length = 1 / glm::length(glm::dvec3(cone.axis));
+}
+
+/// The axis, normalised, in float.
+inline std::array<float, 3> unit_axis(const Cluster<true>& c) {
+    const glm::vec3 axis(glm::dvec3(c.cone.axis) * c.inverse_length);
+    return {axis.x, axis.y, axis.z};
+}
+
+template <bool Oriented>
+Cluster<Oriented> merge(const Cluster<Oriented>& a, const Cluster<Oriented>& b) {
+    Cluster<Oriented> c;
+    for (std::size_t i = 0; i < 3; ++i) {
+        c.lo[i] = std::min(a.lo[i], b.lo[i]);
+        c.hi[i] = std::max(a.hi[i], b.hi[i]);
+    }
+    c.weight = a.weight + b.weight;
+    c.count = a.count + b.count;
+    c.id = std::min(a.id, b.id);
+    if constexpr (Oriented) {
+        if (a.cone == b.cone) {
+            c.cone = a.cone;
+            c.half = a.half;
+            c.inverse_length = a.inverse_length;
+        } else {
+            // Smaller id first, so that the cone does not depend on the order of arguments.
+            set_cone(c, a.id < b.id ? lightcuts::merge(a.cone, b.cone) : lightcuts::merge(b.cone, a.cone));
+        }
+    }
+    return c;
+}
+
+/// pre: a checked item.
+template <bool Oriented, class Item>
+Cluster<Oriented> cluster_of(const Item& item, std::uint32_t index, const Frame& frame) {
+    Cluster<Oriented> c;
+    c.lo = c.hi = frame.position(item.position);
+    c.weight = frame.weight(item.weight);
+    c.count = 1;
+    c.id = index;
+    if constexpr (Oriented) set_cone(c, cone_of(item.axis + glm::vec3(0.0f)));  // no negative zeros
+    return c;
+}
+
+}  // namespace detail
+}  // namespace lightcuts

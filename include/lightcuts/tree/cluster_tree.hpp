@@ -1,0 +1,77 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "../core/assertion.hpp"
+
+namespace lightcuts {
+
+/// The topology of a binary tree over the items 0 .. N-1, in post-order in one flat array of 2N-1 words.
+///
+///          6            left_leaf(6) = 0
+///        /   \          right child of 6 is 5, left child is left_leaf(5)-1 = 2
+///       2     5         the subtree of 5 is the range [3, 5]
+///      / \   / \        a leaf is its own left_leaf
+///     0   1 3   4
+///
+/// Every subtree is a contiguous range that ends at its root, so ancestor and overlap tests are two comparisons, and
+/// a cut is a sorted list of indices. What a node knows (boxes, intensities, ...) lives outside, see `summarize`.
+/// Immutable once built; safe to share between threads.
+class ClusterTree {
+public:
+    using node_index = std::uint32_t;
+
+    static constexpr std::size_t max_items = std::size_t{1} << 30;
+
+    /// An empty tree.
+    ClusterTree() = default;
+
+    /// Takes the words of a post-order array: `leaf_word(item)` for a leaf, else the index of the subtree's first
+    /// leaf. pre: the array is a valid tree (`validate` checks).
+    explicit ClusterTree(std::vector<std::uint32_t> words) : words_(std::move(words)) {}
+
+    static constexpr std::uint32_t leaf_word(std::uint32_t item) { return item | leaf_bit; }
+
+    /// Number of nodes: 2N-1, or 0.
+    std::size_t size() const { return words_.size(); }
+    bool empty() const { return words_.empty(); }
+    std::size_t item_count() const { return (words_.size() + 1) / 2; }
+
+    /// pre: not empty.
+    node_index root() const { return static_cast<node_index>(words_.size() - 1); }
+
+    bool is_leaf(node_index n) const { return (words_[n] & leaf_bit) != 0; }
+
+    /// pre: is_leaf(n).
+    std::uint32_t item(node_index n) const {
+        LIGHTCUTS_ASSERT(is_leaf(n));
+        return words_[n] & ~leaf_bit;
+    }
+
+    /// First node of the subtree of n.
+    node_index left_leaf(node_index n) const { return is_leaf(n) ? n : words_[n]; }
+
+    /// pre: !is_leaf(n).
+    node_index right(node_index n) const { return n - 1; }
+    /// pre: !is_leaf(n).
+    node_index left(node_index n) const { return left_leaf(n - 1) - 1; }
+
+    /// Number of items below n (1 for a leaf).
+    std::size_t leaf_count(node_index n) const { return (n - left_leaf(n) + 2) / 2; }
+
+    /// True iff d is n or lies below it.
+    bool contains(node_index n, node_index d) const { return left_leaf(n) <= d && d <= n; }
+
+    const std::vector<std::uint32_t>& words() const { return words_; }
+
+    friend bool operator==(const ClusterTree&, const ClusterTree&) = default;
+
+private:
+    static constexpr std::uint32_t leaf_bit = 0x8000'0000u;
+    std::vector<std::uint32_t> words_;
+};
+
+}  // namespace lightcuts

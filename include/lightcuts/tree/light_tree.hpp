@@ -1,0 +1,188 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "../core/executor.hpp"
+#include "../core/invalid_input.hpp"
+#include "binned.hpp"
+#include "divide.hpp"
+#include "item.hpp"
+#include "light_cluster.hpp"
+#include "representatives.hpp"
+
+namespace lightcuts {
+
+struct LightTreeOptions {
+    /// Most representatives a node may have, 1 to 32. 1 is the least memory; 8 turns the bands that one can leave
+    /// in penumbrae into noise.
+    unsigned representatives = 1;
+    /// Of the choice of representatives.
+    std::uint64_t seed = 1;
+};
+
+/// The default builder of light trees: top-down, binned.
+struct BinnedBuilder {
+    template <class Item, Executor E>
+    ClusterTree operator()(std::span<const Item> items, const E& execute) const {
+        return divide(items, Binned{}, execute);
+    }
+};
+
+/// A cluster tree over lights of one kind. Refers to the lights, which must outlive it, and never copies them.
+/// Lights of zero intensity are left out.
+/// memory: for float RGB and one representative 88 bytes an omni light, 120 an oriented one.
+template <Light L>
+class LightTree {
+public:
+    using light_type = L;
+    using spectrum = spectrum_of<L>;
+    using cluster = LightCluster<L>;
+    using node_index = ClusterTree::node_index;
+
+    LightTree() = default;
+
+    /// Builds the topology by `builder(items, executor) -> ClusterTree`, then what the nodes know.
+    /// throws: invalid_input naming the first light whose intensity is negative or not finite, whose position or
+    /// direction is not finite, or whose axis or direction is not of unit length.
+    template <class Builder = BinnedBuilder, Executor E = Sequential>
+    explicit LightTree(std::span<const L> lights, const LightTreeOptions& options = {}, const Builder& builder = {},
+                       const E& execute = {})
+        : lights_(lights), options_(options) {
+        if (options.representatives < 1 || options.representatives > 32) {
+            throw invalid_input("representatives: " + std::to_string(options.representatives) +
+                                " is not in 1 to 32");
+        }
+        build_topology(builder, execute);
+        refit();
+    }
+
+    template <class Builder = BinnedBuilder, Executor E = Sequential>
+    explicit LightTree(const std::vector<L>& lights, const LightTreeOptions& options = {},
+                       const Builder& builder = {}, const E& execute = {})
+        : LightTree(std::span<const L>(lights), options, builder, execute) {}
+
+    /// The tree would refer to lights that are gone.
+    template <class... Rest>
+    explicit LightTree(std::vector<L>&&, Rest&&...) = delete;
+
+    /// Brings boxes, cones, intensities and representatives up to date after lights moved, turned or dimmed in
+    /// place. The topology stays: rebuild when clusters have drifted apart. cost: O(N).
+    /// pre: the same lights are lit as when the tree was built.
+    void refit() {
+        constexpr int channels = channels_of<spectrum>;
+        using Sums = std::array<double, static_cast<std::size_t>(channels)>;
+        std::vector<Sums> sums(tree_.size());
+        std::vector<double> weights(tree_.size());
+        clusters_.resize(tree_.size());
+        for (node_index n = 0; n < tree_.size(); ++n) {
+            Sums& sum = sums[n];
+            if (tree_.is_leaf(n)) {
+                clusters_[n] = cluster_of(lights_[tree_.item(n)]);
+                for (int c = 0; c < channels; ++c) {
+                    sum[static_cast<std::size_t>(c)] = static_cast<double>(channel(clusters_[n].intensity, c));
+                }
+            } else {
+                const node_index a = tree_.left(n), b = tree_.right(n);
+                clusters_[n] = merge_extents(clusters_[a], clusters_[b]);
+                for (std::size_t c = 0; c < sum.size(); ++c) sum[c] = sums[a][c] + sums[b][c];
+                clusters_[n].intensity =
+                    finite(make_spectrum<spectrum>([&](int c) { return sum[static_cast<std::size_t>(c)]; }));
+            }
+            for (const double s : sum) weights[n] += s;
+        }
+        representatives_ = Representatives(tree_, weights, options_.representatives, options_.seed);
+    }
+
+    /// True if no light is lit.
+    bool empty() const { return tree_.empty(); }
+    std::span<const L> lights() const { return lights_; }
+    const ClusterTree& topology() const { return tree_; }
+    std::span<const cluster> clusters() const { return clusters_; }
+    const Representatives& representatives() const { return representatives_; }
+
+    /// Bytes held, not counting the caller's lights.
+    std::size_t memory_bytes() const {
+        return tree_.words().capacity() * sizeof(std::uint32_t) + clusters_.capacity() * sizeof(cluster) +
+               representatives_.memory_bytes();
+    }
+
+private:
+    using Item = std::conditional_t<cluster::oriented, OrientedItem, PointItem>;
+
+    [[noreturn]] static void reject(std::size_t index, const char* what) {
+        throw invalid_input("light " + std::to_string(index) + ": " + what);
+    }
+
+    static Item checked_item(const L& light, std::size_t index) {
+        const spectrum intensity = detail::intensity_of(light);
+        for (int c = 0; c < channels_of<spectrum>; ++c) {
+            const float value = channel(intensity, c);
+            if (!(value >= 0.0f)) reject(index, "intensity is negative or not a number");
+            if (!(value - value == 0.0f)) reject(index, "intensity is infinite");
+        }
+        Item item;
+        item.position = place_of(light);
+        if (!is_finite(item.position)) reject(index, "position or direction is not finite");
+        if constexpr (DirectionalLight<L>) check_unit(item.position, index, "direction is not of unit length");
+        if constexpr (cluster::oriented) {
+            item.axis = to_vec3(detail::axis_of(light));
+            check_unit(item.axis, index, "axis is not of unit length");
+        }
+        const double weight = channel_sum(intensity);
+        item.weight = weight > 3e38 ? 3e38f : static_cast<float>(weight);
+        if (weight > 0 && item.weight == 0.0f) item.weight = 1e-45f;
+        return item;
+    }
+
+    static void check_unit(const glm::vec3& v, std::size_t index, const char* what) {
+        const float length2 = glm::dot(v, v);
+        if (!(length2 > 0.99999f && length2 < 1.00001f)) reject(index, what);
+    }
+
+    template <class Builder, class E>
+    void build_topology(const Builder& builder, const E& execute) {
+        std::vector<Item> items;
+        std::vector<std::uint32_t> light_of;
+        if (lights_.size() > ClusterTree::max_items) throw invalid_input("more than 2^30 lights in one tree");
+        items.reserve(lights_.size());
+        for (std::size_t i = 0; i < lights_.size(); ++i) {
+            const Item item = checked_item(lights_[i], i);
+            if (item.weight > 0.0f) {
+                if (items.size() < i && light_of.empty()) {  // the first light after a dark one
+                    for (std::uint32_t k = 0; k < items.size(); ++k) light_of.push_back(k);
+                }
+                if (items.size() < i) light_of.push_back(static_cast<std::uint32_t>(i));
+                items.push_back(item);
+            }
+        }
+        tree_ = builder(std::span<const Item>(items), execute);
+        if (!light_of.empty()) tree_ = relabelled(tree_, light_of);
+    }
+
+    /// The same tree with item i called `names[i]`.
+    static ClusterTree relabelled(const ClusterTree& tree, const std::vector<std::uint32_t>& names) {
+        std::vector<std::uint32_t> words = tree.words();
+        for (node_index n = 0; n < tree.size(); ++n) {
+            if (tree.is_leaf(n)) words[n] = ClusterTree::leaf_word(names[tree.item(n)]);
+        }
+        return ClusterTree(std::move(words));
+    }
+
+    std::span<const L> lights_;
+    LightTreeOptions options_;
+    ClusterTree tree_;
+    std::vector<cluster> clusters_;
+    Representatives representatives_;
+};
+
+template <Light L, class... Rest>
+LightTree(const std::vector<L>&, Rest&&...) -> LightTree<L>;
+template <class L, std::size_t Extent, class... Rest>
+LightTree(std::span<L, Extent>, Rest&&...) -> LightTree<std::remove_const_t<L>>;
+
+}  // namespace lightcuts

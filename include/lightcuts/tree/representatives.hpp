@@ -1,0 +1,107 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "../core/random.hpp"
+#include "cluster_tree.hpp"
+
+namespace lightcuts {
+
+/// The lights that may stand for each cluster, as leaves of the tree. A node's representatives are taken from those
+/// of its children, each with a probability proportional to the intensity on its side, so that a light drawn
+/// evenly from a node's list represents it with probability light intensity / cluster intensity (over seeds).
+///
+/// With one a node [Lightcuts 2005, section 3] the whole image uses the same one. With several [Miksik 2007,
+/// section 4] a receiver draws one, which turns a bias that can be seen as bands into noise: a parent has as many
+/// as its richer child, plus one with probability (poorer / richer count), up to a limit.
+class Representatives {
+public:
+    using node_index = ClusterTree::node_index;
+
+    Representatives() = default;
+
+    /// `weights[n]`: intensity of node n, as a double. pre: weights > 0; 1 <= limit <= 32.
+    /// cost: O(N); 4 bytes a node for one representative, about 4 + 4 * (mean number) for several.
+    Representatives(const ClusterTree& tree, std::span<const double> weights, unsigned limit, std::uint64_t seed) {
+        if (limit <= 1) {
+            choose_one(tree, weights, seed);
+        } else {
+            choose_several(tree, weights, limit, seed);
+        }
+    }
+
+    /// The representative of n that the random bits `choice` draw: a leaf in n's subtree.
+    node_index draw(node_index n, std::uint64_t choice) const {
+        if (begin_.empty()) return leaves_[n];
+        const std::span<const node_index> list = of(n);
+        return list[static_cast<std::size_t>(to_unit(choice) * static_cast<double>(list.size()))];
+    }
+
+    /// All representatives of n.
+    std::span<const node_index> of(node_index n) const {
+        if (begin_.empty()) return std::span(leaves_).subspan(n, 1);
+        return std::span(leaves_).subspan(begin_[n], begin_[n + 1] - begin_[n]);
+    }
+
+    /// True if no node has more than one, so that `draw` ignores its choice.
+    bool single() const { return begin_.empty(); }
+
+    std::size_t memory_bytes() const {
+        return leaves_.capacity() * sizeof(node_index) + begin_.capacity() * sizeof(std::uint32_t);
+    }
+
+private:
+    void choose_one(const ClusterTree& tree, std::span<const double> weights, std::uint64_t seed) {
+        leaves_.resize(tree.size());
+        for (node_index n = 0; n < tree.size(); ++n) {
+            if (tree.is_leaf(n)) {
+                leaves_[n] = n;
+                continue;
+            }
+            const node_index a = tree.left(n), b = tree.right(n);
+            const double r = to_unit(hash_keys(seed, n));
+            leaves_[n] = leaves_[r * (weights[a] + weights[b]) < weights[a] ? a : b];
+        }
+    }
+
+    void choose_several(const ClusterTree& tree, std::span<const double> weights, unsigned limit,
+                        std::uint64_t seed) {
+        begin_.reserve(tree.size() + 1);
+        begin_.push_back(0);
+        for (node_index n = 0; n < tree.size(); ++n) {
+            if (tree.is_leaf(n)) {
+                leaves_.push_back(n);
+            } else {
+                const node_index a = tree.left(n), b = tree.right(n);
+                const std::size_t in_a = begin_[a + 1] - begin_[a], in_b = begin_[b + 1] - begin_[b];
+                const std::size_t richer = in_a > in_b ? in_a : in_b, poorer = in_a + in_b - richer;
+                const bool grows = to_unit(hash_keys(seed, n, 1)) * static_cast<double>(richer) <
+                                   static_cast<double>(poorer);
+                const std::size_t count = richer + (grows ? 1 : 0) > limit ? limit : richer + (grows ? 1 : 0);
+                // Slot k falls to the left child if its stratum lies in the child's share of the intensity; within a
+                // child the slots go round its list, so that no light is taken twice while another is left.
+                const double jitter = to_unit(hash_keys(seed, n, 2));
+                std::size_t next_a = hash_keys(seed, n, 3) % in_a, next_b = hash_keys(seed, n, 4) % in_b;
+                for (std::size_t k = 0; k < count; ++k) {
+                    const double r = (static_cast<double>(k) + jitter) / static_cast<double>(count);
+                    if (r * (weights[a] + weights[b]) < weights[a]) {
+                        leaves_.push_back(leaves_[begin_[a] + next_a]);
+                        next_a = (next_a + 1) % in_a;
+                    } else {
+                        leaves_.push_back(leaves_[begin_[b] + next_b]);
+                        next_b = (next_b + 1) % in_b;
+                    }
+                }
+            }
+            begin_.push_back(static_cast<std::uint32_t>(leaves_.size()));
+        }
+        leaves_.shrink_to_fit();
+    }
+
+    std::vector<node_index> leaves_;
+    std::vector<std::uint32_t> begin_;  ///< empty with one representative a node
+};
+
+}  // namespace lightcuts

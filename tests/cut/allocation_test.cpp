@@ -1,0 +1,61 @@
+#include <cstdlib>
+#include <new>
+#include <span>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <lightcuts/cut/lightcut.hpp>
+#include <lightcuts/estimate/exhaustive.hpp>
+#include <lightcuts/estimate/power.hpp>
+#include <lightcuts/estimate/ward.hpp>
+#include "support/scene.hpp"
+
+namespace {
+std::size_t allocations = 0;
+}
+
+// Not inlined, or GCC takes malloc's memory in one for a mismatch in the other.
+[[gnu::noinline]] void* operator new(std::size_t size) {
+    ++allocations;
+    if (void* p = std::malloc(size)) return p;
+    throw std::bad_alloc();
+}
+[[gnu::noinline]] void operator delete(void* p) noexcept { std::free(p); }
+[[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept { std::free(p); }
+
+namespace lightcuts::test {
+namespace {
+
+TEST(Allocation, DoesNotHappenOnceTheScratchIsWarm) {
+    using V = glm::vec3;
+    Room<V> room(1);
+    const auto lights = room.oriented(500);
+    const LightTree tree(lights, {.representatives = 4});
+    const LightForest forest(tree);
+    const PowerDistribution distribution(forest);
+    const Occluders occluders = room.occluders();
+    const BatchedOccluders batched{occluders};
+    const ScalarOccluders scalar{occluders};
+    const auto receivers = room.glossy_receivers(32);
+    const std::span all(receivers);
+    std::vector<CutResult<V>> results(receivers.size());
+    LightcutScratch<V> one, other;
+    EstimateScratch<V> estimates;
+    const auto everything = [&] {
+        shade(forest, all, batched, std::span(results), one);
+        shade(forest, all, scalar, std::span(results), other);
+        for (const auto& receiver : receivers) {
+            exhaustive(forest, receiver, batched, estimates);
+            ward(forest, receiver, batched, 0.1f, estimates);
+            power_sampling(forest, distribution, receiver, batched, 64, 1, estimates);
+        }
+    };
+    everything();
+    const std::size_t before = allocations;
+    everything();
+    EXPECT_EQ(allocations, before);
+}
+
+}  // namespace
+}  // namespace lightcuts::test

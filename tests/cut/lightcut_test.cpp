@@ -1,0 +1,185 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <lightcuts/cut/lightcut.hpp>
+#include <lightcuts/estimate/exhaustive.hpp>
+#include "support/scene.hpp"
+
+namespace lightcuts::test {
+namespace {
+
+using V = glm::vec3;
+
+TEST(Shade, OfOneOmniLightOverAPlaneIsTheClosedForm) {
+    const V intensity(10.0f, 20.0f, 30.0f), albedo(0.2f, 0.5f, 0.8f);
+    const float height = 1.5f;
+    const std::vector<OmniLight<>> lights{{{0.0f, height, 0.0f}, intensity, {}}};
+    const LightTree tree(lights);
+    for (float x = 0.0f; x < 5.0f; x += 0.25f) {
+        const auto result = shade(tree, Receiver({x, 0.0f, 0.0f}, Lambert<V>{{0.0f, 1.0f, 0.0f}, albedo}));
+        const double d2 = static_cast<double>(x) * static_cast<double>(x) + static_cast<double>(height * height);
+        for (int c = 0; c < 3; ++c) {
+            const double exact = static_cast<double>(albedo[c] * intensity[c]) / std::numbers::pi *
+                                 static_cast<double>(height) / (d2 * std::sqrt(d2));
+            EXPECT_NEAR(result.radiance[c], exact, 1e-5 * exact);
+        }
+        EXPECT_EQ(result.error_bound, V(0.0f));
+        EXPECT_EQ(result.cut_size, 1u);
+        EXPECT_EQ(result.stop, StopReason::converged);
+    }
+}
+
+// An infinite row of lights close together, far longer than high, is a line: radiance albedo / pi * pi / 2 * I' / h.
+TEST(Shade, OfALongRowOfLightsIsThatOfALine) {
+    std::vector<OmniLight<float>> lights;
+    for (int i = -20000; i <= 20000; ++i) lights.push_back({{0.01f * static_cast<float>(i), 0.0f, 1.0f}, 0.01f, {}});
+    const LightTree tree(lights);
+    const auto result = shade(tree, Receiver(V(0.0f), Lambert<float>{{0.0f, 0.0f, 1.0f}, 1.0f}), AlwaysVisible{},
+                              {.error_ratio = 1e-3f, .max_cut = 0});
+    EXPECT_NEAR(result.radiance, 2.0f / std::numbers::pi_v<float>, 1e-3f);  // the integral of 1 / (1 + x^2)^(3/2) is 2
+    EXPECT_LT(result.cut_size, 4000u);
+}
+
+TEST(Shade, OfSeveralTreesIsTheSumOverThem) {
+    Room<V> room(1);
+    const auto omni = room.omni(50);
+    const auto distant = room.distant(50);
+    const LightTree a(omni);
+    const LightTree b(distant);
+    const LightcutOptions all{.error_ratio = 0.0f, .max_cut = 0};
+    for (const auto& receiver : room.diffuse_receivers(10)) {
+        const V sum = shade(a, receiver, AlwaysVisible{}, all).radiance + shade(b, receiver, AlwaysVisible{}, all).radiance;
+        const V both = shade(LightForest(a, b), receiver, AlwaysVisible{}, all).radiance;
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(both[c], sum[c], 1e-5f * sum[c]);
+    }
+}
+
+TEST(Shade, KeepsOneClusterATreeWhateverTheLimit) {
+    Room<V> room(2);
+    const auto omni = room.omni(50);
+    const auto oriented = room.oriented(50);
+    const LightTree a(omni);
+    const LightTree b(oriented);
+    const LightForest forest(a, b);
+    for (const auto& receiver : room.diffuse_receivers(5)) {
+        EXPECT_EQ(shade(forest, receiver, AlwaysVisible{}, {.max_cut = 1}).cut_size, 2u);
+        EXPECT_EQ(shade(forest, receiver, AlwaysVisible{}, {.error_ratio = 0.0f, .max_cut = 3}).cut_size, 3u);
+        // Beyond the number of lights a limit does not matter.
+        const auto result = shade(forest, receiver, AlwaysVisible{}, {.error_ratio = 0.0f, .max_cut = 1000});
+        EXPECT_LE(result.cut_size, 100u);
+        EXPECT_EQ(result.stop, StopReason::converged);
+    }
+}
+
+// Where all is dark, what adaptation tolerates need not be refined.
+TEST(Shade, RefinesDarknessLessWithAdaptation) {
+    Room<V> room(3);
+    const auto lights = room.omni(1000);
+    const LightTree tree(lights);
+    const auto blocked = [](const auto&, const auto&) { return false; };
+    for (const auto& receiver : room.diffuse_receivers(5)) {
+        const auto plain = shade(tree, receiver, blocked, {.max_cut = 200});
+        EXPECT_EQ(plain.radiance, V(0.0f));
+        EXPECT_EQ(plain.stop, StopReason::limit) << "every bound is above a ratio of nothing";
+        const auto adapted = shade(tree, receiver, blocked, {.max_cut = 200, .adaptation = 1e4f});
+        EXPECT_LT(adapted.cut_size, 30u) << "only what may touch the receiver is refined";
+        EXPECT_EQ(adapted.stop, StopReason::converged);
+    }
+}
+
+// The child that holds the parent's representative takes its terms over: a refined cut needs no ray twice.
+TEST(Shade, TracesOneRayALightAtMost) {
+    struct Remembering {
+        std::vector<int>& asked;
+        void many(std::span<const VisibilityQuery> queries, std::span<float> answers) const {
+            for (std::size_t i = 0; i < queries.size(); ++i) {
+                ++asked[queries[i].light];
+                answers[i] = 1.0f;
+            }
+        }
+    };
+    Room<V> room(4);
+    const auto lights = room.omni(300);
+    for (const auto& receiver : room.diffuse_receivers(5)) {
+        for (const LightcutOptions& options : {LightcutOptions{}, LightcutOptions{.error_ratio = 0.0f, .max_cut = 0}}) {
+            const LightTree tree(lights);  // one representative a node: each light is asked about once
+            std::vector<int> asked(lights.size(), 0);
+            const auto result = shade(tree, receiver, Remembering{asked}, options);
+            EXPECT_LE(*std::max_element(asked.begin(), asked.end()), 1);
+            int rays = 0;
+            for (const int a : asked) rays += a;
+            EXPECT_EQ(static_cast<std::uint32_t>(rays), result.queries);
+        }
+    }
+}
+
+TEST(Shade, DrawsOtherRepresentativesForOtherSeedsAndReceivers) {
+    Room<V> room(5);
+    const auto lights = room.omni(500);
+    const LightTree several(lights, {.representatives = 16});
+    const LightTree single(lights);
+    auto receivers = room.diffuse_receivers(1);
+    const auto& receiver = receivers[0];
+    const auto by = [&](const LightTree<OmniLight<>>& tree, std::uint64_t seed, std::uint32_t id) {
+        Receiver<Lambert<V>> renamed = receiver;
+        renamed.id = id;
+        return shade(tree, renamed, AlwaysVisible{}, {.max_cut = 5, .seed = seed}).radiance;
+    };
+    EXPECT_EQ(by(several, 1, 1), by(several, 1, 1));
+    EXPECT_NE(by(several, 1, 1), by(several, 2, 1));
+    EXPECT_NE(by(several, 1, 1), by(several, 1, 2));
+    EXPECT_EQ(by(single, 1, 1), by(single, 2, 3)) << "with one there is nothing to draw";
+}
+
+TEST(Lightcut, CanBeStoppedAnywhere) {
+    Room<V> room(6);
+    const auto lights = room.omni(400);
+    const LightTree tree(lights);
+    const LightForest forest(tree);
+    const Occluders occluders = room.occluders();
+    const ScalarOccluders oracle{occluders};
+    for (const auto& receiver : room.diffuse_receivers(10)) {
+        EstimateScratch<V> scratch;
+        const V exact = exhaustive(forest, receiver, oracle, scratch).radiance;
+        Lightcut cut(forest, receiver, oracle, LightcutOptions{.error_ratio = 0.01f, .max_cut = 0});
+        do {
+            const CutResult<V> result = cut.result();
+            for (int c = 0; c < 3; ++c) {
+                EXPECT_LE(std::fabs(result.radiance[c] - exact[c]), result.error_bound[c] + 1e-5f * exact[c]);
+            }
+            double sum = 0.0;
+            std::size_t leaves = 0;
+            for (const auto nodes : {cut.active(), cut.resting()}) {
+                for (const auto& node : nodes) {
+                    sum += static_cast<double>(node.estimate.x);
+                    leaves += tree.topology().leaf_count(node.node);
+                }
+            }
+            EXPECT_NEAR(sum, result.radiance.x, 1e-6 * sum);
+            EXPECT_EQ(leaves, lights.size()) << "a cut holds every light once";
+        } while (cut.step());
+        EXPECT_EQ(cut.result().stop, StopReason::converged);
+    }
+}
+
+// One channel is nearly dark: its own error counts, not only the bright one's.
+TEST(Shade, LooksAtEveryChannel) {
+    Room<V> room(7);
+    auto lights = room.omni(1000);
+    for (std::size_t i = 0; i < lights.size(); ++i) lights[i].intensity = i % 100 == 7 ? V(0.0f, 0.0f, 1e-3f) : V(1.0f, 1.0f, 0.0f);
+    const LightTree tree(lights);
+    EstimateScratch<V> scratch;
+    for (const auto& receiver : room.diffuse_receivers(20)) {
+        const V exact = exhaustive(LightForest(tree), receiver, AlwaysVisible{}, scratch).radiance;
+        const auto result = shade(tree, receiver, AlwaysVisible{}, {.error_ratio = 0.01f, .max_cut = 0});
+        EXPECT_NEAR(result.radiance.z, exact.z, 0.1f * exact.z);
+    }
+}
+
+}  // namespace
+}  // namespace lightcuts::test

@@ -1,0 +1,169 @@
+#include <cstdint>
+#include <span>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <lightcuts/cut/lightcut.hpp>
+#include "support/scene.hpp"
+
+namespace lightcuts::test {
+namespace {
+
+using V = glm::vec3;
+
+template <class M>
+void expect_same(const std::vector<CutResult<V>>& a, const std::vector<CutResult<V>>& b, const std::vector<Receiver<M>>&) {
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        EXPECT_EQ(a[i].radiance, b[i].radiance) << i;
+        EXPECT_EQ(a[i].error_bound, b[i].error_bound) << i;
+        EXPECT_EQ(a[i].cut_size, b[i].cut_size) << i;
+        EXPECT_EQ(a[i].queries, b[i].queries) << i;
+        EXPECT_EQ(a[i].stop, b[i].stop) << i;
+    }
+}
+
+template <class Forest, class M, class Oracle>
+std::vector<CutResult<V>> shade_in_tiles(const Forest& forest, const std::vector<Receiver<M>>& receivers,
+                                         const Oracle& oracle, const LightcutOptions& options, std::size_t tile) {
+    std::vector<CutResult<V>> results(receivers.size());
+    LightcutScratch<V> scratch;
+    for (std::size_t begin = 0; begin < receivers.size(); begin += tile) {
+        const std::size_t count = std::min(tile, receivers.size() - begin);
+        shade(forest, std::span<const Receiver<M>>(receivers).subspan(begin, count), oracle,
+              std::span(results).subspan(begin, count), scratch, options);
+    }
+    return results;
+}
+
+TEST(Tiles, DoNotChangeABit) {
+    Room<V> room(31);
+    const auto omni = room.omni(500);
+    const auto oriented = room.oriented(500);
+    const LightTree a(omni);
+    const LightTree b(oriented, {.representatives = 8});
+    const LightForest forest(a, b);
+    const Occluders occluders = room.occluders();
+    const auto receivers = room.glossy_receivers(100);
+    const BatchedOccluders batched{occluders, 0.2f};
+    const ScalarOccluders scalar{occluders, 0.2f};
+    for (const LightcutOptions& options :
+         {LightcutOptions{}, LightcutOptions{.error_ratio = 0.005f, .max_cut = 90}, LightcutOptions{.round_fraction = 1.0}}) {
+        const auto one_by_one = shade_in_tiles(forest, receivers, batched, options, 1);
+        for (const std::size_t tile : {2u, 7u, 64u, 100u}) {
+            expect_same(one_by_one, shade_in_tiles(forest, receivers, batched, options, tile), receivers);
+        }
+        expect_same(one_by_one, shade_in_tiles(forest, receivers, scalar, options, 100), receivers);
+
+        std::vector<CutResult<V>> single;
+        for (const auto& receiver : receivers) single.push_back(shade(forest, receiver, batched, options));
+        expect_same(one_by_one, single, receivers);
+
+        std::vector<CutResult<V>> stepped;
+        for (const auto& receiver : receivers) {
+            Lightcut cut(forest, receiver, scalar, options);
+            std::uint32_t size = 0;
+            for (;;) {
+                const CutResult<V> so_far = cut.result();
+                EXPECT_GE(so_far.cut_size, size);
+                size = so_far.cut_size;
+                if (!cut.step()) break;
+                EXPECT_EQ(cut.result().stop, StopReason::unfinished);
+            }
+            EXPECT_FALSE(cut.step()) << "a final cut stays final";
+            stepped.push_back(cut.result());
+        }
+        expect_same(one_by_one, stepped, receivers);
+    }
+}
+
+// The order of the answers is the order of the queries, and one call serves the whole tile.
+TEST(Tiles, AskInOneBatchARound) {
+    struct Counting {
+        const Occluders& occluders;
+        std::size_t& calls;
+        std::size_t& rays;
+        void many(std::span<const VisibilityQuery> queries, std::span<float> answers) const {
+            ASSERT_EQ(queries.size(), answers.size());
+            ASSERT_FALSE(queries.empty());
+            ++calls;
+            rays += queries.size();
+            BatchedOccluders{occluders}.many(queries, answers);
+        }
+    };
+    Room<V> room(32);
+    const auto lights = room.omni(800);
+    const LightTree tree(lights);
+    const LightForest forest(tree);
+    const Occluders occluders = room.occluders();
+    const auto receivers = room.diffuse_receivers(64);
+    std::size_t calls = 0, rays = 0;
+    const auto results = shade_in_tiles(forest, receivers, Counting{occluders, calls, rays}, {}, 64);
+    std::size_t total = 0;
+    for (const auto& r : results) total += r.queries;
+    EXPECT_EQ(rays, total);
+    EXPECT_LT(calls, 60u) << "rounds of 64 receivers in lock-step";
+    EXPECT_GT(rays / calls, 128u);
+}
+
+TEST(Threads, DoNotChangeABit) {
+    Room<V> room(33);
+    const auto lights = room.oriented(6000);
+    const auto executor = [](std::size_t count, auto&& task) {
+        constexpr std::size_t workers = 4;
+        std::vector<std::thread> threads;
+        for (std::size_t w = 0; w < workers; ++w) {
+            threads.emplace_back([&, w] {
+                for (std::size_t i = w; i < count; i += workers) task(i);
+            });
+        }
+        for (std::thread& t : threads) t.join();
+    };
+    const LightTree tree(lights, {.representatives = 4});
+    const LightTree threaded(lights, {.representatives = 4}, BinnedBuilder{}, executor);
+    ASSERT_EQ(tree.topology(), threaded.topology());
+    for (ClusterTree::node_index n = 0; n < tree.topology().size(); ++n) {
+        EXPECT_EQ(tree.clusters()[n].box, threaded.clusters()[n].box);
+        EXPECT_EQ(tree.clusters()[n].cone, threaded.clusters()[n].cone);
+        EXPECT_EQ(tree.clusters()[n].intensity, threaded.clusters()[n].intensity);
+    }
+
+    const LightForest forest(tree);
+    const Occluders occluders = room.occluders();
+    const BatchedOccluders oracle{occluders};
+    const auto receivers = room.glossy_receivers(64);
+    const auto alone = shade_in_tiles(forest, receivers, oracle, {}, 64);
+    std::vector<CutResult<V>> together(receivers.size());
+    executor(8, [&](std::size_t part) {
+        LightcutScratch<V> scratch;
+        shade(forest, std::span(receivers).subspan(8 * part, 8), oracle, std::span(together).subspan(8 * part, 8), scratch);
+    });
+    expect_same(alone, together, receivers);
+}
+
+// A warm scratch gives what a cold one gives, whatever it was used for before.
+TEST(Scratch, RemembersNothing) {
+    Room<V> room(34);
+    const auto lights = room.omni(300);
+    const LightTree tree(lights);
+    const LightForest forest(tree);
+    const Occluders occluders = room.occluders();
+    const BatchedOccluders oracle{occluders};
+    const auto receivers = room.diffuse_receivers(20);
+    const auto cold = shade_in_tiles(forest, receivers, oracle, {}, 20);
+    LightcutScratch<V> scratch;
+    std::vector<CutResult<V>> warm(receivers.size());
+    for (int repeat = 0; repeat < 3; ++repeat) {
+        for (std::size_t i = 0; i < receivers.size(); i += 4) {
+            shade(forest, std::span(receivers).subspan(i, 4), oracle, std::span(warm).subspan(i, 4), scratch,
+                  {.error_ratio = 0.3f});
+        }
+        shade(forest, std::span(receivers), oracle, std::span(warm), scratch);
+        expect_same(cold, warm, receivers);
+    }
+}
+
+}  // namespace
+}  // namespace lightcuts::test

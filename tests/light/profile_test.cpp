@@ -1,0 +1,66 @@
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include <lightcuts/light/falloff.hpp>
+#include <lightcuts/light/spot.hpp>
+#include "support/random.hpp"
+
+namespace lightcuts::test {
+namespace {
+
+TEST(SpotProfile, IsOneInsideZeroOutsideAndASquaredRampBetween) {
+    const SpotProfile p{0.9f, 0.5f};
+    EXPECT_EQ(p(1.0f), 1.0f);
+    EXPECT_EQ(p(0.9f), 1.0f);
+    EXPECT_EQ(p(0.5f), 0.0f);
+    EXPECT_EQ(p(-1.0f), 0.0f);
+    EXPECT_NEAR(p(0.7f), 0.25f, 1e-6f);
+}
+
+TEST(SpotProfile, MergedIsNowhereBelowEither) {
+    Random random(1);
+    for (int trial = 0; trial < 20000; ++trial) {
+        const auto profile = [&] {
+            const float outer = random.real(-1.0, 0.99);
+            const float inner = outer + static_cast<float>(random.decades(-6.0, 0.0)) * (1.0f - outer);
+            return inner > outer ? SpotProfile{inner, outer} : SpotProfile{1.0f, outer};
+        };
+        const SpotProfile a = profile(), b = profile(), both = merge(a, b);
+        EXPECT_LT(both.cos_outer, both.cos_inner);
+        for (int i = 0; i < 20; ++i) {
+            const float c = i == 0 ? a.cos_outer : i == 1 ? b.cos_inner : i == 2 ? a.cos_inner : random.real(-1.0, 1.0);
+            EXPECT_LE(a(c), both.emission_bound(c, c));
+            EXPECT_LE(b(c), both.emission_bound(-1.0f, c));
+            EXPECT_LE(both.emission_bound(-1.0f, c), 1.0f);
+        }
+    }
+}
+
+TEST(PolynomialFalloff, IsTheInverseOfItsPolynomial) {
+    EXPECT_EQ((PolynomialFalloff{1.0f, 0.0f, 0.0f}(7.0f)), 1.0f);
+    EXPECT_EQ((PolynomialFalloff{}(2.0f)), 0.25f);
+    EXPECT_EQ((PolynomialFalloff{1.0f, 2.0f, 3.0f}(2.0f)), 1.0f / 17.0f);
+}
+
+TEST(PolynomialFalloff, MergedIsNowhereBelowEither) {
+    Random random(2);
+    for (int trial = 0; trial < 20000; ++trial) {
+        const auto falloff = [&] {
+            const auto coefficient = [&] { return random.chance(0.3) ? 0.0f : static_cast<float>(random.decades(-6.0, 6.0)); };
+            return PolynomialFalloff{coefficient(), coefficient(), coefficient() + 1e-9f};
+        };
+        const PolynomialFalloff a = falloff(), b = falloff();
+        const FalloffEnvelope<PolynomialFalloff> both = merge(FalloffEnvelope<PolynomialFalloff>{a}, {b});
+        for (int i = 0; i < 20; ++i) {
+            const float d = static_cast<float>(random.decades(-20.0, 15.0));
+            const float nearest = d * random.real(0.0, 1.0);
+            EXPECT_LE(a(d), both.falloff_bound(nearest));
+            EXPECT_LE(b(d), both.falloff_bound(d));
+        }
+        EXPECT_GE(both.falloff_bound(0.0f), a(0.0f));
+    }
+}
+
+}  // namespace
+}  // namespace lightcuts::test
