@@ -2,11 +2,15 @@
 /// representative a cluster, Lambert's material, an oracle of one ray at a time. Both do the same work and must agree
 /// bit for bit. Prints both times and writes abstraction_penalty.json.
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <limits>
 
 #include <CLI/CLI.hpp>
+#include <glm/common.hpp>
 #include <lightcuts/cut/lightcut.hpp>
 #include <lightcuts/light/omni.hpp>
 #include <lightcuts/material/lambert.hpp>
@@ -41,10 +45,10 @@ struct BallOracle {
 /// Lightcuts without a template: what the library comes to for this case, with an unlimited cut.
 class HandWritten {
 public:
-    HandWritten(const Tree& tree, float error_ratio)
+    HandWritten(const Tree& tree, const lightcuts::LightcutOptions& options)
         : lights_(tree.lights().data()), words_(tree.topology().words().data()), clusters_(tree.clusters().data()),
           representatives_(tree.representatives().of(0).data()), root_(tree.topology().root()),
-          threshold_(static_cast<double>(error_ratio)) {}
+          threshold_(static_cast<double>(options.error_ratio)), round_fraction_(options.round_fraction) {}
 
     Result shade(const Point& point) {
         point_ = &point;
@@ -52,7 +56,7 @@ public:
         active_.clear();
         resting_.clear();
         fresh_.clear();
-        for (int c = 0; c < 3; ++c) total_[c] = weight_[c] = marked_[c] = 0.0;
+        for (int c = 0; c < 3; ++c) total_[c] = weight_[c] = least_[c] = 0.0;
         largest_ = 0.0;
         queries_ = 0;
         constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -113,8 +117,7 @@ private:
     /// Shades the node by its own representative, but for the shadow ray.
     void set_terms(Node& node) {
         node.representative = representatives_[node.node];
-        const glm::dvec3 offset =
-            glm::dvec3(light_of(node.representative).position) - glm::dvec3(point_->position);
+        const glm::dvec3 offset = glm::dvec3(light_of(node.representative).position) - glm::dvec3(point_->position);
         const double distance2 = glm::dot(offset, offset);
         if (!(distance2 > 0.0)) return;
         const double inverse = 1.0 / std::sqrt(distance2);
@@ -167,12 +170,15 @@ private:
             for (const Node& node : active_) add(node.estimate, 1.0);
             for (const Node& node : resting_) add(node.estimate, 1.0);
         }
-        for (int c = 0; c < 3; ++c) weight_[c] = total_[c] > 1e-150 ? 1.0 / total_[c] : 1e150;
+        for (int c = 0; c < 3; ++c) {
+            weight_[c] = total_[c] > 1e-150 ? 1.0 / total_[c] : 1e150;
+            least_[c] = std::min(least_[c], weight_[c]);
+        }
     }
 
     double growth() const {
         double largest = 0.0;
-        for (int c = 0; c < 3; ++c) largest = std::max(largest, weight_[c] / marked_[c]);
+        for (int c = 0; c < 3; ++c) largest = std::max(largest, weight_[c] / least_[c]);
         return largest;
     }
 
@@ -186,7 +192,7 @@ private:
             }
         }
         resting_.resize(kept);
-        for (int c = 0; c < 3; ++c) marked_[c] = weight_[c];
+        for (int c = 0; c < 3; ++c) least_[c] = weight_[c];
     }
 
     double priority(const Node& node) const {
@@ -219,7 +225,7 @@ private:
             if (c.priority < std::numeric_limits<double>::infinity()) largest = std::max(largest, c.priority);
         }
         std::erase_if(chosen_, [&](const Candidate& c) {
-            return !(c.priority > threshold_) || c.priority < 0.25 * largest;
+            return !(c.priority > threshold_) || c.priority < round_fraction_ * largest;
         });
     }
 
@@ -246,8 +252,8 @@ private:
                 if (p > threshold_ && p < lightcuts::TwoStageBounds{}.doubt * threshold_) {
                     const lightcuts::ClusterView view = lightcuts::view_of(clusters_[node.node], point_->position);
                     const glm::dvec3 normal(point_->material.normal);
-                    lower(node, lightcuts::detail::scale_bound(
-                                    albedo_, lightcuts::max_power<3>(normal, view.box, 2e-3).value));
+                    lower(node, lightcuts::detail::scale_bound(albedo_,
+                                                               lightcuts::max_power<3>(normal, view.box, 2e-3).value));
                 }
             }
         }
@@ -281,11 +287,11 @@ private:
     const Tree::cluster* clusters_;
     const std::uint32_t* representatives_;
     std::uint32_t root_;
-    double threshold_;
+    double threshold_, round_fraction_;
 
     const Point* point_ = nullptr;
     glm::vec3 albedo_{};  ///< over pi
-    double total_[3]{}, weight_[3]{}, marked_[3]{}, largest_ = 0;
+    double total_[3]{}, weight_[3]{}, least_[3]{}, largest_ = 0;
     std::uint32_t queries_ = 0;
     std::vector<Node> active_, resting_, fresh_;
     std::vector<Candidate> chosen_;
@@ -338,7 +344,7 @@ int main(int argc, char** argv) {
     options.max_cut = 0;
     lightcuts::LightcutScratch<glm::vec3> scratch;
     std::vector<Result> generic(points.size()), by_hand(points.size());
-    HandWritten hand(tree, options.error_ratio);
+    HandWritten hand(tree, options);
     const auto run_generic = [&] { lightcuts::shade(tree, points, BallOracle{}, generic, scratch, options); };
     const auto run_by_hand = [&] {
         for (std::size_t i = 0; i < points.size(); ++i) by_hand[i] = hand.shade(points[i]);
@@ -368,9 +374,9 @@ int main(int argc, char** argv) {
     std::printf("%-12s %12.2f\n", "generic", 1e6 * generic_time / count);
     std::printf("%-12s %12.2f\n", "by hand", 1e6 * hand_time / count);
     std::printf("%-12s %12.3f\n", "ratio", generic_time / hand_time);
-    const nlohmann::json json = {{"lights", lights.size()},           {"points", points.size()},
-                                 {"cut_size", nodes / count},         {"shadow_rays", rays / count},
-                                 {"generic_seconds", generic_time},   {"by_hand_seconds", hand_time},
+    const nlohmann::json json = {{"lights", lights.size()},          {"points", points.size()},
+                                 {"cut_size", nodes / count},        {"shadow_rays", rays / count},
+                                 {"generic_seconds", generic_time},  {"by_hand_seconds", hand_time},
                                  {"ratio", generic_time / hand_time}};
     std::ofstream("abstraction_penalty.json") << json.dump(2) << "\n";
 }

@@ -82,7 +82,8 @@ double seconds_of_children() {
 /// Processor seconds of the compiler. throws: runtime_error if it fails.
 double seconds_to_compile(const fs::path& file) {
     const std::string command = "'" LIGHTCUTS_CXX_COMPILER "' -std=c++20 -fsyntax-only -I'" LIGHTCUTS_INCLUDE_DIRECTORY
-                                "' '" + file.string() + "'";
+                                "' '" +
+                                file.string() + "'";
     const double start = seconds_of_children();
     const int status = std::system(command.c_str());
     if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) throw std::runtime_error("failed: " + command);
@@ -103,7 +104,8 @@ int run(int runs, bool each) {
     std::vector<Row> rows;
     rows.push_back({"nothing", folder.write("nothing", std::set<std::string>{}), {}});
     rows.push_back({std::to_string(includes.foreign.size()) + " standard and GLM headers",
-                    folder.write("foreign", includes.foreign), {}});
+                    folder.write("foreign", includes.foreign),
+                    {}});
     rows.push_back({"<" + umbrella + ">", folder.write("umbrella", std::set<std::string>{umbrella}), {}});
     if (each) {
         for (const std::string& header : includes.foreign) {

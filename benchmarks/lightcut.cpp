@@ -36,10 +36,11 @@ struct CountingBounds : lightcuts::TwoStageBounds {
     mutable std::uint64_t* quick_calls;
     mutable std::uint64_t* tight_calls;
 
-    template <class M, class C>
-    auto quick(const M& material, const C& cluster, const glm::vec3& point) const {
-        ++*quick_calls;
-        return TwoStageBounds::quick(material, cluster, point);
+    template <class M, class C, class S>
+    void quick_many(const M& material, const glm::vec3& point, const C* const* clusters, std::size_t count,
+                    S* units) const {
+        *quick_calls += count;
+        TwoStageBounds::quick_many(material, point, clusters, count, units);
     }
     template <class M, class C>
     auto tight(const M& material, const C& cluster, const glm::vec3& point) const {
@@ -105,8 +106,10 @@ Row measure(const std::string& scene, std::uint32_t area_points, int width, int 
         for (std::size_t i = 0; i < queries.size(); ++i) {
             const VisibilityQuery& q = queries[i];
             const glm::vec3 d = q.distant ? q.to : q.to - q.from;
-            rays[i] = {q.from.x, q.from.y, q.from.z, 0.0f, d.x, d.y, d.z, 0.0f,
-                       q.distant ? std::numeric_limits<float>::infinity() : 1.0f - 1e-4f, ~0u, 0u, 0u};
+            rays[i] = {q.from.x, q.from.y, q.from.z,
+                       0.0f,     d.x,      d.y,
+                       d.z,      0.0f,     q.distant ? std::numeric_limits<float>::infinity() : 1.0f - 1e-4f,
+                       ~0u,      0u,       0u};
         }
     };
     std::vector<float> answers(queries.size());
@@ -137,8 +140,8 @@ Row measure(const std::string& scene, std::uint32_t area_points, int width, int 
     row.ratio = median(ratios);
     row.stream_ratio = median(stream_ratios);
     row.ns_per_ray = row.seconds * 1e9 / static_cast<double>(sums.queries);
-    row.ns_per_node_outside =
-        row.seconds * (1.0 - row.stream_ratio / row.ratio) * 1e9 / static_cast<double>(sums.nodes);
+    row.ns_per_node_outside = row.seconds * (1.0 - row.stream_ratio / row.ratio) * 1e9 /
+                              static_cast<double>(sums.nodes);
 
     if (exhaustive_receivers > 0) {
         lightcuts::EstimateScratch<glm::vec3> scratch;
@@ -190,15 +193,24 @@ int main(int argc, char** argv) {
         const char* scene;
         std::uint32_t area_points;
     };
-    const std::vector<Case> cases = {
-        {"builtin:hall", 1},    {"builtin:hall", 4},    {"builtin:hall", 8},
-        {"builtin:hall", 16},   {"builtin:hall", 64},   {"builtin:hall", 256},
-        {"builtin:hall", 1024}, {"builtin:hall", 4096}, {"builtin:omni?lights=3000", 0},
-        {"builtin:omni?lights=30000", 0}, {"builtin:omni?lights=300000", 0},
-        {"builtin:directional?lights=3000", 0}, {"builtin:directional?lights=30000", 0},
-        {"builtin:directional?lights=300000", 0}, {"builtin:surfaces?lights=3000", 0},
-        {"builtin:surfaces?lights=30000", 0}, {"builtin:surfaces?lights=300000", 0},
-        {"builtin:surfaces?lights=30000&rotated=0", 0}};
+    const std::vector<Case> cases = {{"builtin:hall", 1},
+                                     {"builtin:hall", 4},
+                                     {"builtin:hall", 8},
+                                     {"builtin:hall", 16},
+                                     {"builtin:hall", 64},
+                                     {"builtin:hall", 256},
+                                     {"builtin:hall", 1024},
+                                     {"builtin:hall", 4096},
+                                     {"builtin:omni?lights=3000", 0},
+                                     {"builtin:omni?lights=30000", 0},
+                                     {"builtin:omni?lights=300000", 0},
+                                     {"builtin:directional?lights=3000", 0},
+                                     {"builtin:directional?lights=30000", 0},
+                                     {"builtin:directional?lights=300000", 0},
+                                     {"builtin:surfaces?lights=3000", 0},
+                                     {"builtin:surfaces?lights=30000", 0},
+                                     {"builtin:surfaces?lights=300000", 0},
+                                     {"builtin:surfaces?lights=30000&rotated=0", 0}};
     nlohmann::json rows = nlohmann::json::array();
     std::printf("%-42s %8s %7s %7s %7s %7s %7s %7s %8s %8s %9s\n", "scene", "lights", "cut", "rays", "quick", "tight",
                 "/rays", "stream", "ns/ray", "ns/node", "/exhaust.");

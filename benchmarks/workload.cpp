@@ -35,8 +35,8 @@ Workload::Workload(const std::string& scene, std::uint32_t area_points, int widt
     }
     receivers_.reserve(points.size());
     for (const render::SurfacePoint& p : points) {
-        receivers_.push_back({p.position, render::SurfaceMaterial(p), p.ray_origin,
-                              static_cast<std::uint32_t>(receivers_.size())});
+        receivers_.push_back(
+            {p.position, render::SurfaceMaterial(p), p.ray_origin, static_cast<std::uint32_t>(receivers_.size())});
     }
 }
 

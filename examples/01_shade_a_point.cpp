@@ -31,8 +31,7 @@ int main() {
     const auto shaded = lightcuts::shade(tree, point, visible);  // no cluster is off by more than 2 % of the total
 
     // The same, light by light.
-    lightcuts::EstimateScratch<glm::vec3> scratch;
-    const auto exact = lightcuts::exhaustive(lightcuts::LightForest(tree), point, visible, scratch);
+    const auto exact = lightcuts::exhaustive(tree, point, visible);
 
     const float error = std::abs(shaded.radiance.r - exact.radiance.r);
     std::printf("lightcut    %.2f W/(m^2 sr), %u shadow rays\n", shaded.radiance.r, shaded.queries);

@@ -50,7 +50,7 @@ int main() {
     std::printf("in fact within %.3f %% of the %.2f that all %u rays give\n", 100.0f * error / exact.radiance,
                 exact.radiance, exact.queries);
 
-    // The last word is `running`: it was the caller who stopped.
+    // The last word is `unfinished`: it was the caller who stopped.
     const bool stopped_early = shaded.stop == lightcuts::StopReason::unfinished;
     return error <= shaded.error_bound && stopped_early ? 0 : 1;
 }

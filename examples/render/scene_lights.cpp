@@ -18,8 +18,8 @@ struct TbbExecutor {
 
 template <class L, class Builder>
 lightcuts::LightTree<L> tree_with(const std::vector<L>& lights, const Options& options, const Builder& builder) {
-    return lightcuts::LightTree<L>(
-        lights, {.representatives = options.representatives, .seed = options.seed}, builder, TbbExecutor{});
+    return lightcuts::LightTree<L>(lights, {.representatives = options.representatives, .seed = options.seed}, builder,
+                                   TbbExecutor{});
 }
 
 template <class L>

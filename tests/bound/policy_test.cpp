@@ -36,8 +36,9 @@ LightCluster<L> cluster_over(const V& lo, const V& hi) {
 
 template <class M, Light L>
 void expect_bounds(const M& material, const LightCluster<L>& cluster, float expected, float looseness = 1.001f) {
-    for (const float bound : {TwoStageBounds{}.quick(material, cluster, V(0.0f)).x, TwoStageBounds{}.tight(material, cluster, V(0.0f)).x,
-                              SeparateBounds{}.quick(material, cluster, V(0.0f)).x}) {
+    for (const float bound :
+         {TwoStageBounds{}.quick(material, cluster, V(0.0f)).x, TwoStageBounds{}.tight(material, cluster, V(0.0f)).x,
+          SeparateBounds{}.quick(material, cluster, V(0.0f)).x}) {
         if (expected == 0.0f || expected == infinity) {
             EXPECT_EQ(bound, expected);
         } else {
@@ -50,7 +51,8 @@ void expect_bounds(const M& material, const LightCluster<L>& cluster, float expe
 TEST(Bound, OfAPointClusterIsItsLight) {
     expect_bounds(upward, cluster_over<OmniLight<>>({0.0f, 0.0f, 2.0f}, {0.0f, 0.0f, 2.0f}), by_pi / 4.0f);
     expect_bounds(upward, cluster_over<OmniLight<>>({0.0f, 3.0f, 4.0f}, {0.0f, 3.0f, 4.0f}), by_pi * 0.8f / 25.0f);
-    expect_bounds(upward, cluster_over<OrientedPointLight<>>({0.0f, 3.0f, 4.0f}, {0.0f, 3.0f, 4.0f}), by_pi * 0.64f / 25.0f);
+    expect_bounds(upward, cluster_over<OrientedPointLight<>>({0.0f, 3.0f, 4.0f}, {0.0f, 3.0f, 4.0f}),
+                  by_pi * 0.64f / 25.0f);
     expect_bounds(upward, cluster_over<DistantLight<>>({0.0f, 0.6f, 0.8f}, {0.0f, 0.6f, 0.8f}), by_pi * 0.8f);
 }
 
@@ -85,7 +87,8 @@ TEST(Bound, IsInfiniteWhereALightMayTouchTheReceiver) {
     expect_bounds(upward, cluster_over<OmniLight<>>({0.0f, 0.0f, 0.0f}, {1.0f, 1.0f, 1.0f}), infinity);
     expect_bounds(upward, cluster_over<OrientedPointLight<>>({0.0f, 0.0f, 0.0f}, {1.0f, 1.0f, 1.0f}), infinity);
     const ModifiedPhong<V> glossy({0.0f, 0.0f, 1.0f}, {0.0f, 0.0f, 1.0f}, V(1.0f, 0.0f, 1.0f), 10.0f);
-    const V bound = TwoStageBounds{}.quick(glossy, cluster_over<OmniLight<>>({-1.0f, -1.0f, -1.0f}, {1.0f, 1.0f, 1.0f}), V(0.0f));
+    const V bound = TwoStageBounds{}.quick(glossy, cluster_over<OmniLight<>>({-1.0f, -1.0f, -1.0f}, {1.0f, 1.0f, 1.0f}),
+                                           V(0.0f));
     EXPECT_EQ(bound.x, infinity);
     EXPECT_EQ(bound.y, 0.0f) << "black times infinity is black";
 }
@@ -101,11 +104,13 @@ TEST(Bound, OfDirectionalLightsDoesNotDependOnTheReceiverPosition) {
 TEST(Bound, FallsWithTheSquaredDistance) {
     Random random(1);
     for (int i = 0; i < 1000; ++i) {
-        const glm::dvec3 a = random.in_box({-1.0, -1.0, 0.2}, {1.0, 1.0, 2.0}), b = random.in_box({-1.0, -1.0, 0.2}, {1.0, 1.0, 2.0});
+        const glm::dvec3 a = random.in_box({-1.0, -1.0, 0.2}, {1.0, 1.0, 2.0}),
+                         b = random.in_box({-1.0, -1.0, 0.2}, {1.0, 1.0, 2.0});
         const V lo(glm::min(a, b)), hi(glm::max(a, b));
         const float at_one = TwoStageBounds{}.tight(upward, cluster_over<OmniLight<>>(lo, hi), V(0.0f)).x;
         for (const float scale : {0x1p-40f, 0x1p40f}) {
-            const float scaled = TwoStageBounds{}.tight(upward, cluster_over<OmniLight<>>(lo * scale, hi * scale), V(0.0f)).x;
+            const float scaled =
+                TwoStageBounds{}.tight(upward, cluster_over<OmniLight<>>(lo * scale, hi * scale), V(0.0f)).x;
             EXPECT_NEAR(scaled * scale * scale, at_one, 1e-5f * at_one);
         }
     }
@@ -126,7 +131,8 @@ TEST(Bound, AsksTheMaterialOnlyWhereTheGeometryAllows) {
 }
 
 TEST(EmissionBound, OfASpotIsOneInsideTheConeAndZeroOutside) {
-    LightCluster<SpotLight<>> cluster = cluster_of(SpotLight<>{{0.0f, 0.0f, 2.0f}, {0.0f, 0.0f, -1.0f}, V(1.0f), {0.9f, 0.8f}});
+    LightCluster<SpotLight<>> cluster = cluster_of(
+        SpotLight<>{{0.0f, 0.0f, 2.0f}, {0.0f, 0.0f, -1.0f}, V(1.0f), {0.9f, 0.8f}});
     expect_bounds(upward, cluster, by_pi / 4.0f);
     cluster.cone = cone_of({1.0f, 0.0f, 0.0f});
     expect_bounds(upward, cluster, 0.0f);

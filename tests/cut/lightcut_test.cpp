@@ -53,7 +53,8 @@ TEST(Shade, OfSeveralTreesIsTheSumOverThem) {
     const LightTree b(distant);
     const LightcutOptions all{.error_ratio = 0.0f, .max_cut = 0};
     for (const auto& receiver : room.diffuse_receivers(10)) {
-        const V sum = shade(a, receiver, AlwaysVisible{}, all).radiance + shade(b, receiver, AlwaysVisible{}, all).radiance;
+        const V sum = shade(a, receiver, AlwaysVisible{}, all).radiance +
+                      shade(b, receiver, AlwaysVisible{}, all).radiance;
         const V both = shade(LightForest(a, b), receiver, AlwaysVisible{}, all).radiance;
         for (int c = 0; c < 3; ++c) EXPECT_NEAR(both[c], sum[c], 1e-5f * sum[c]);
     }
@@ -171,7 +172,8 @@ TEST(Lightcut, CanBeStoppedAnywhere) {
 TEST(Shade, LooksAtEveryChannel) {
     Room<V> room(7);
     auto lights = room.omni(1000);
-    for (std::size_t i = 0; i < lights.size(); ++i) lights[i].intensity = i % 100 == 7 ? V(0.0f, 0.0f, 1e-3f) : V(1.0f, 1.0f, 0.0f);
+    for (std::size_t i = 0; i < lights.size(); ++i)
+        lights[i].intensity = i % 100 == 7 ? V(0.0f, 0.0f, 1e-3f) : V(1.0f, 1.0f, 0.0f);
     const LightTree tree(lights);
     EstimateScratch<V> scratch;
     for (const auto& receiver : room.diffuse_receivers(20)) {

@@ -197,7 +197,8 @@ struct Listed {
 };
 
 TEST(Refinement, TakesInfinitiesFirstThenTheLargestThenBreaksTies) {
-    const std::vector<ToyNode> list{{1, 3.0}, {2, infinity}, {3, 5.0}, {4, 5.0}, {5, infinity}, {6, 0.5}, {7, 5.0}, {8, 2.0}};
+    const std::vector<ToyNode> list{{1, 3.0},      {2, infinity}, {3, 5.0}, {4, 5.0},
+                                    {5, infinity}, {6, 0.5},      {7, 5.0}, {8, 2.0}};
     const std::vector<std::uint32_t> order{5, 2, 7, 4, 3, 1, 8};  // 6 is at the threshold, not above
     for (std::size_t room = 0; room <= order.size(); ++room) {
         Listed problem{list};

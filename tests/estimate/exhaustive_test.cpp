@@ -54,7 +54,8 @@ TEST(Exhaustive, SendsStreamsOfUpTo1024Rays) {
     const LightTree tree(lights);
     EstimateScratch<V> scratch;
     std::vector<std::size_t> lengths;
-    exhaustive(LightForest(tree), Receiver(V(0.0f), Lambert<V>{{0.0f, 0.0f, 1.0f}, V(1.0f)}), Streams{lengths}, scratch);
+    exhaustive(LightForest(tree), Receiver(V(0.0f), Lambert<V>{{0.0f, 0.0f, 1.0f}, V(1.0f)}), Streams{lengths},
+               scratch);
     EXPECT_EQ(lengths, (std::vector<std::size_t>{1024, 1024, 452}));
 }
 
@@ -63,8 +64,8 @@ TEST(Exhaustive, OfManyEqualLightsDoesNotDrift) {
     const std::vector<OmniLight<float>> lights(1000000, {{0.0f, 0.0f, 1.0f}, 0.1f, {}});
     const LightTree tree(lights);
     EstimateScratch<float> scratch;
-    const auto result =
-        exhaustive(LightForest(tree), Receiver(V(0.0f), Lambert<float>{{0.0f, 0.0f, 1.0f}, 1.0f}), AlwaysVisible{}, scratch);
+    const auto result = exhaustive(LightForest(tree), Receiver(V(0.0f), Lambert<float>{{0.0f, 0.0f, 1.0f}, 1.0f}),
+                                   AlwaysVisible{}, scratch);
     EXPECT_NEAR(result.radiance, 1e5f * 0.31830988f, 1e-6f * 1e5f);
 }
 

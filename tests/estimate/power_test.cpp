@@ -31,8 +31,8 @@ TEST(PowerDistribution, HasProbabilitiesThatSumToOneAndFollowTheIntensities) {
     std::size_t lights = 0;
     while (u < 1.0 - 1e-12) {
         const auto choice = distribution.choose(u + 1e-14);
-        const double power =
-            choice.kind == 0 ? channel_sum(omni[choice.light].intensity) : channel_sum(spot[choice.light].intensity);
+        const double power = choice.kind == 0 ? channel_sum(omni[choice.light].intensity)
+                                              : channel_sum(spot[choice.light].intensity);
         EXPECT_GT(power, 0.0);
         EXPECT_NEAR(choice.probability, power / total, 1e-12);
         sum += choice.probability;
@@ -93,7 +93,8 @@ TEST(PowerSampling, DependsOnSeedAndReceiverOnly) {
     const auto by = [&](std::size_t i, std::uint64_t seed) {
         return power_sampling(forest, distribution, receivers[i], ScalarOccluders{occluders}, 16, seed, scratch);
     };
-    const auto streamed = power_sampling(forest, distribution, receivers[0], BatchedOccluders{occluders}, 16, 5, scratch);
+    const auto streamed = power_sampling(forest, distribution, receivers[0], BatchedOccluders{occluders}, 16, 5,
+                                         scratch);
     EXPECT_EQ(by(0, 5).radiance, streamed.radiance);
     EXPECT_EQ(by(0, 5).queries, streamed.queries);
     EXPECT_EQ(by(0, 5).radiance, by(0, 5).radiance);

@@ -68,7 +68,8 @@ TEST(Ward, TestsFewerLightsForLargerThresholds) {
             queries = result.queries;
             if (exact.radiance.x == 0.0f) continue;
             // The rest could add at most the threshold to what was found, and takes away nothing.
-            for (int c = 0; c < 3; ++c) EXPECT_NEAR(result.radiance[c], exact.radiance[c], 3.0f * threshold * exact.radiance[c]);
+            for (int c = 0; c < 3; ++c)
+                EXPECT_NEAR(result.radiance[c], exact.radiance[c], 3.0f * threshold * exact.radiance[c]);
         }
     }
 }
@@ -80,7 +81,8 @@ TEST(Ward, AssumesTheRestToBeAsVisibleAsWhatItTested) {
     const LightTree tree(lights);
     const auto half = [](const auto&, const auto&) { return 0.5f; };
     EstimateScratch<float> scratch;
-    const auto result = ward(LightForest(tree), Receiver(V(0.0f), Lambert<float>{{0.0f, 0.0f, 1.0f}, 1.0f}), half, 0.5f, scratch);
+    const auto result = ward(LightForest(tree), Receiver(V(0.0f), Lambert<float>{{0.0f, 0.0f, 1.0f}, 1.0f}), half, 0.5f,
+                             scratch);
     EXPECT_EQ(result.queries, 16u);
     EXPECT_NEAR(result.radiance, 0.5f * 144.0f * 0.31830988f, 1e-5f * 50.0f);
 }
@@ -89,7 +91,8 @@ TEST(Ward, OfNoLightsIsBlack) {
     const std::vector<OmniLight<>> none;
     const LightTree tree(none);
     EstimateScratch<V> scratch;
-    const auto result = ward(LightForest(tree), Receiver(V(0.0f), Lambert<V>{{0.0f, 0.0f, 1.0f}, V(1.0f)}), AlwaysVisible{}, 0.1f, scratch);
+    const auto result = ward(LightForest(tree), Receiver(V(0.0f), Lambert<V>{{0.0f, 0.0f, 1.0f}, V(1.0f)}),
+                             AlwaysVisible{}, 0.1f, scratch);
     EXPECT_EQ(result.radiance, V(0.0f));
     EXPECT_EQ(result.queries, 0u);
 }

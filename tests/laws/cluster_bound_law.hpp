@@ -22,9 +22,7 @@ LightCluster<L> cluster_of_all(const std::vector<L>& lights) {
     std::array<double, 3> sum{};
     for (std::size_t i = 0; i < lights.size(); ++i) {
         if (i > 0) cluster = merge_extents(cluster, cluster_of(lights[i]));
-        for (int c = 0; c < 3; ++c) {
-            sum[static_cast<std::size_t>(c)] += static_cast<double>(lights[i].intensity[c]);
-        }
+        for (int c = 0; c < 3; ++c) { sum[static_cast<std::size_t>(c)] += static_cast<double>(lights[i].intensity[c]); }
     }
     cluster.intensity = make_spectrum<glm::vec3>([&](int c) { return sum[static_cast<std::size_t>(c)]; });
     return cluster;
@@ -54,16 +52,18 @@ inline std::string text_of(const glm::vec3& v) {
 /// standing for the cluster by any of its lights. Beside the cluster of all lights, those of the first few and of one
 /// each are bounded, by one call of `quick_many`.
 template <Light L, class M>
-void check_cluster(LawOutcome& outcome, const ClusterConfiguration& c, const std::vector<L>& lights, const M& material) {
+void check_cluster(LawOutcome& outcome, const ClusterConfiguration& c, const std::vector<L>& lights,
+                   const M& material) {
     const Receiver<const M&> receiver(c.receiver, material);
     ++outcome.configurations;
-    const auto report = [&](const char* what, const char* bound_name, std::size_t light, int k, double value, double bound) {
+    const auto report = [&](const char* what, const char* bound_name, std::size_t light, int k, double value,
+                            double bound) {
         if (outcome.violations++ != 0) return;
         std::ostringstream out;
         out.precision(17);
-        out << what << ", " << bound_name << " bound, light " << light << ", channel " << k << ": " << value << " above "
-            << bound << "\n  receiver " << text_of(c.receiver) << " normal " << text_of(c.normal) << " view "
-            << text_of(c.view);
+        out << what << ", " << bound_name << " bound, light " << light << ", channel " << k << ": " << value
+            << " above " << bound << "\n  receiver " << text_of(c.receiver) << " normal " << text_of(c.normal)
+            << " view " << text_of(c.view);
         for (std::size_t i = 0; i < lights.size(); ++i) {
             out << "\n  light at " << text_of(c.positions[i]) << " axis " << text_of(c.axes[i]) << " intensity "
                 << text_of(c.intensities[i]);
@@ -156,8 +156,8 @@ template <class L>
 void expect_bounds_hold_over_all_materials(std::uint64_t seed) {
     const auto expect = [&]<class M>(LightOverMaterial<L, M>, const char* material, std::size_t count) {
         const LawOutcome outcome = bound_law<L, M>(seed, count);
-        EXPECT_EQ(outcome.violations, 0u) << "over " << material << ", of " << outcome.comparisons << " comparisons; first: "
-                                          << outcome.first;
+        EXPECT_EQ(outcome.violations, 0u)
+            << "over " << material << ", of " << outcome.comparisons << " comparisons; first: " << outcome.first;
     };
     using V = glm::vec3;
     expect(LightOverMaterial<L, Lambert<V>>{}, "Lambert", 150000);

@@ -69,8 +69,10 @@ inline ClusterConfiguration random_configuration(Random& random) {
     glm::dvec3 half(random.between(0.05, 1.0), random.between(0.05, 1.0), random.between(0.05, 1.0));
     for (int a = 0; a < 3; ++a) {
         const double p = random.unit();
-        if (p < 0.2) half[a] = 0.0;
-        else if (p < 0.35) half[a] *= 1e-6;
+        if (p < 0.2)
+            half[a] = 0.0;
+        else if (p < 0.35)
+            half[a] *= 1e-6;
     }
     if (random.chance(0.1)) half = glm::dvec3(0.0);
 
@@ -156,9 +158,7 @@ inline ClusterConfiguration random_configuration(Random& random) {
             if (rise > 1e-9) axis = u * std::cos(spread) + across * (std::sin(spread) / rise);
         }
         if (spread == std::numbers::pi && i == 1) axis = -u;
-        if (spread > 0.0 && all_but_one_away) {
-            axis = i == 0 ? grazing(random, towards) : random.near(towards, 1.5);
-        }
+        if (spread > 0.0 && all_but_one_away) { axis = i == 0 ? grazing(random, towards) : random.near(towards, 1.5); }
         // Of unit length as far as trees insist on it.
         const double length = sloppy_axes ? random.between(1.0 - 4e-6, 1.0 + 4e-6) : 1.0;
         c.axes.push_back(glm::vec3(glm::normalize(axis) * length));

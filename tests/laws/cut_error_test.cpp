@@ -27,12 +27,12 @@ void expect_error_within_bound(const Forest& forest, const std::vector<Receiver<
     for (const auto& receiver : receivers) {
         const Estimate<V> exact = exhaustive(forest, receiver, scalar, scratch);
         Lightcut cut(forest, receiver, batched, options);
-        while (cut.step()) {
-        }
+        while (cut.step()) {}
         const CutResult<V> result = cut.result();
         const std::string where = "receiver " + std::to_string(receiver.id);
         for (int c = 0; c < 3; ++c) {
-            const double error = std::fabs(static_cast<double>(result.radiance[c]) - static_cast<double>(exact.radiance[c]));
+            const double error = std::fabs(static_cast<double>(result.radiance[c]) -
+                                           static_cast<double>(exact.radiance[c]));
             EXPECT_LE(error, static_cast<double>(result.error_bound[c]) +
                                  order_of_summation * static_cast<double>(exact.radiance[c]))
                 << where << ", channel " << c;
@@ -48,8 +48,9 @@ void expect_error_within_bound(const Forest& forest, const std::vector<Receiver<
                 for (const auto& node : nodes) {
                     for (int c = 0; c < 3; ++c) {
                         if (node.bound[c] == 0.0f) continue;
-                        largest = std::max(largest, static_cast<double>(node.bound[c]) /
-                                                        static_cast<double>(result.radiance[c] + 0.1f * options.adaptation));
+                        largest = std::max(largest,
+                                           static_cast<double>(node.bound[c]) /
+                                               static_cast<double>(result.radiance[c] + 0.1f * options.adaptation));
                     }
                 }
             }
@@ -61,7 +62,8 @@ void expect_error_within_bound(const Forest& forest, const std::vector<Receiver<
         if (options.error_ratio == 0.0f && options.max_cut == 0) {
             for (int c = 0; c < 3; ++c) {
                 EXPECT_EQ(result.error_bound[c], 0.0f) << where;
-                EXPECT_NEAR(result.radiance[c], exact.radiance[c], order_of_summation * static_cast<double>(exact.radiance[c]))
+                EXPECT_NEAR(result.radiance[c], exact.radiance[c],
+                            order_of_summation * static_cast<double>(exact.radiance[c]))
                     << where;
             }
             // Nodes below which nothing can contribute need no rays, and lights that contribute need one each.
@@ -82,8 +84,9 @@ void expect_errors_within_bounds(const Forest& forest, Room<V>& room) {
     const Occluders occluders = room.occluders();
     for (const LightcutOptions& options :
          {LightcutOptions{}, LightcutOptions{.error_ratio = 0.1f}, LightcutOptions{.error_ratio = 0.0f, .max_cut = 0},
-          LightcutOptions{.error_ratio = 0.01f, .max_cut = 40}, LightcutOptions{.max_cut = 1}, LightcutOptions{.max_cut = 2},
-          LightcutOptions{.adaptation = 0.05f}, LightcutOptions{.error_ratio = 0.05f, .round_fraction = 1.0}}) {
+          LightcutOptions{.error_ratio = 0.01f, .max_cut = 40}, LightcutOptions{.max_cut = 1},
+          LightcutOptions{.max_cut = 2}, LightcutOptions{.adaptation = 0.05f},
+          LightcutOptions{.error_ratio = 0.05f, .round_fraction = 1.0}}) {
         expect_error_within_bound(forest, room.diffuse_receivers(20), occluders, 0.0f, options);
         expect_error_within_bound(forest, room.glossy_receivers(20), occluders, 0.3f, options);
     }

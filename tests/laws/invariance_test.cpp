@@ -14,7 +14,8 @@ namespace {
 using V = glm::vec3;
 
 template <class M>
-void expect_same(const std::vector<CutResult<V>>& a, const std::vector<CutResult<V>>& b, const std::vector<Receiver<M>>&) {
+void expect_same(const std::vector<CutResult<V>>& a, const std::vector<CutResult<V>>& b,
+                 const std::vector<Receiver<M>>&) {
     ASSERT_EQ(a.size(), b.size());
     for (std::size_t i = 0; i < a.size(); ++i) {
         EXPECT_EQ(a[i].radiance, b[i].radiance) << i;
@@ -49,8 +50,8 @@ TEST(Tiles, DoNotChangeABit) {
     const auto receivers = room.glossy_receivers(100);
     const BatchedOccluders batched{occluders, 0.2f};
     const ScalarOccluders scalar{occluders, 0.2f};
-    for (const LightcutOptions& options :
-         {LightcutOptions{}, LightcutOptions{.error_ratio = 0.005f, .max_cut = 90}, LightcutOptions{.round_fraction = 1.0}}) {
+    for (const LightcutOptions& options : {LightcutOptions{}, LightcutOptions{.error_ratio = 0.005f, .max_cut = 90},
+                                           LightcutOptions{.round_fraction = 1.0}}) {
         const auto one_by_one = shade_in_tiles(forest, receivers, batched, options, 1);
         for (const std::size_t tile : {2u, 7u, 64u, 100u}) {
             expect_same(one_by_one, shade_in_tiles(forest, receivers, batched, options, tile), receivers);
@@ -138,7 +139,8 @@ TEST(Threads, DoNotChangeABit) {
     std::vector<CutResult<V>> together(receivers.size());
     executor(8, [&](std::size_t part) {
         LightcutScratch<V> scratch;
-        shade(forest, std::span(receivers).subspan(8 * part, 8), oracle, std::span(together).subspan(8 * part, 8), scratch);
+        shade(forest, std::span(receivers).subspan(8 * part, 8), oracle, std::span(together).subspan(8 * part, 8),
+              scratch);
     });
     expect_same(alone, together, receivers);
 }

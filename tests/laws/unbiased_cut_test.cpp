@@ -32,13 +32,13 @@ void expect_fixed_cut_unbiased(const std::vector<L>& lights, const Receiver<Lamb
     const ScalarOccluders oracle{occluders};
     EstimateScratch<float> scratch;
     const LightTree<L> reference(lights);
-    const double exact =
-        static_cast<double>(exhaustive(LightForest(reference), receiver, oracle, scratch).radiance);
+    const double exact = static_cast<double>(exhaustive(LightForest(reference), receiver, oracle, scratch).radiance);
     ASSERT_GT(exact, 0.0);
     std::uint32_t size = 0;
     expect_unbiased(exact, seeds, [&](std::uint64_t seed) {
         const LightTree<L> tree(lights, {.representatives = representatives, .seed = 2 * seed + 1});
-        const auto result = shade(tree, receiver, oracle, {.error_ratio = 0.0f, .max_cut = cut_size, .seed = 77 * seed});
+        const auto result = shade(tree, receiver, oracle,
+                                  {.error_ratio = 0.0f, .max_cut = cut_size, .seed = 77 * seed});
         size = result.cut_size;
         return static_cast<double>(result.radiance);
     });
@@ -81,8 +81,7 @@ TEST(FixedCut, IsUnbiasedForSeveralTrees) {
         EstimateScratch<float> scratch;
         const LightTree a(omni);
         const LightTree b(oriented);
-        const double exact =
-            static_cast<double>(exhaustive(LightForest(a, b), receiver, oracle, scratch).radiance);
+        const double exact = static_cast<double>(exhaustive(LightForest(a, b), receiver, oracle, scratch).radiance);
         expect_unbiased(exact, 4000, [&](std::uint64_t seed) {
             const LightTree one(omni, {.representatives = 1, .seed = seed});
             const LightTree other(oriented, {.representatives = 4, .seed = seed});
@@ -104,8 +103,8 @@ TEST(AdaptiveCut, HasLessThanTwoPerCentOfBias) {
         for (const auto& receiver : room.diffuse_receivers(60)) {
             EstimateScratch<float> scratch;
             const LightTree reference(lights);
-            const double exact =
-                static_cast<double>(exhaustive(LightForest(reference), receiver, oracle, scratch).radiance);
+            const double exact = static_cast<double>(
+                exhaustive(LightForest(reference), receiver, oracle, scratch).radiance);
             if (!(exact > 1e-3)) continue;
             Mean mean;
             for (std::uint64_t seed = 0; seed < 40; ++seed) {
@@ -114,8 +113,9 @@ TEST(AdaptiveCut, HasLessThanTwoPerCentOfBias) {
             }
             bias.add(mean.value() / exact - 1.0);
         }
-        std::printf("[ FIGURE   ] bias of adaptive cuts at 2 %%, %u representatives: %+.3f %% (receivers vary by %.3f %%)\n",
-                    representatives, 100.0 * bias.value(), 100.0 * bias.deviation());
+        std::printf(
+            "[ FIGURE   ] bias of adaptive cuts at 2 %%, %u representatives: %+.3f %% (receivers vary by %.3f %%)\n",
+            representatives, 100.0 * bias.value(), 100.0 * bias.deviation());
         EXPECT_LT(std::fabs(bias.value()), 0.02);
     }
 }

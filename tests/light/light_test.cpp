@@ -37,7 +37,8 @@ struct lightcuts::light_traits<lightcuts::test::Foreign> {
 namespace lightcuts::test {
 namespace {
 
-static_assert(PointLight<OmniLight<>> && !OrientedLight<OmniLight<>> && !FalloffLight<OmniLight<>> && !DirectionalLight<OmniLight<>>);
+static_assert(PointLight<OmniLight<>> && !OrientedLight<OmniLight<>> && !FalloffLight<OmniLight<>> &&
+              !DirectionalLight<OmniLight<>>);
 static_assert(FalloffLight<OmniLight<float, PolynomialFalloff>>);
 static_assert(OrientedLight<OrientedPointLight<>> && !ProfiledLight<OrientedPointLight<>>);
 static_assert(ProfiledLight<SpotLight<>> && !FalloffLight<SpotLight<>>);
@@ -79,10 +80,12 @@ TEST(Incidence, OfAnOrientedLightHasItsCosine) {
 
 TEST(Incidence, HasTheFalloffInPlaceOfTheInverseSquare) {
     const PolynomialFalloff falloff{1.0f, 0.5f, 0.25f};
-    EXPECT_NEAR(incidence(OmniLight<float, PolynomialFalloff>{{0.0f, 2.0f, 0.0f}, 1.0f, falloff}, glm::vec3(0.0f)).geometric,
-                1.0 / 3.0, 1e-7);
+    EXPECT_NEAR(
+        incidence(OmniLight<float, PolynomialFalloff>{{0.0f, 2.0f, 0.0f}, 1.0f, falloff}, glm::vec3(0.0f)).geometric,
+        1.0 / 3.0, 1e-7);
     const Incidence both = incidence(
-        OrientedPointLight<float, PolynomialFalloff>{{0.0f, 2.0f, 0.0f}, {0.0f, -1.0f, 0.0f}, 1.0f, falloff}, glm::vec3(0.0f));
+        OrientedPointLight<float, PolynomialFalloff>{{0.0f, 2.0f, 0.0f}, {0.0f, -1.0f, 0.0f}, 1.0f, falloff},
+        glm::vec3(0.0f));
     EXPECT_NEAR(both.geometric, 1.0 / 3.0, 1e-7);
 }
 

@@ -47,7 +47,9 @@ TEST(PolynomialFalloff, MergedIsNowhereBelowEither) {
     Random random(2);
     for (int trial = 0; trial < 20000; ++trial) {
         const auto falloff = [&] {
-            const auto coefficient = [&] { return random.chance(0.3) ? 0.0f : static_cast<float>(random.decades(-6.0, 6.0)); };
+            const auto coefficient = [&] {
+                return random.chance(0.3) ? 0.0f : static_cast<float>(random.decades(-6.0, 6.0));
+            };
             return PolynomialFalloff{coefficient(), coefficient(), coefficient() + 1e-9f};
         };
         const PolynomialFalloff a = falloff(), b = falloff();

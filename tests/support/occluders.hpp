@@ -17,7 +17,9 @@ namespace lightcuts::test {
 /// Triangles and spheres that cast shadows, tested one after the other.
 class Occluders {
 public:
-    void add_triangle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) { triangles_.push_back({a, b, c}); }
+    void add_triangle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+        triangles_.push_back({a, b, c});
+    }
     void add_sphere(const glm::dvec3& centre, double radius) { spheres_.push_back({centre, radius}); }
 
     /// True if something stands between `from` and the point `to`, or in the direction `to`.

@@ -71,7 +71,8 @@ public:
         for (std::uint32_t i = 0; i < n; ++i) {
             const auto [p, normal] = inside();
             const glm::vec3 view(random_.near(glm::normalize(glm::dvec3(normal)), 1.4));
-            const Glossy material(Lambert<S>{normal, albedo()}, Ggx<S>(normal, view, albedo(), random_.real(0.05, 0.6)));
+            const Glossy material(Lambert<S>{normal, albedo()},
+                                  Ggx<S>(normal, view, albedo(), random_.real(0.05, 0.6)));
             receivers.push_back({p, material, p + 1e-4f * normal, i});
         }
         return receivers;

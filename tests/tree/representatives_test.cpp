@@ -27,8 +27,9 @@ WeightedTree weighted_tree(std::size_t n, std::uint64_t seed) {
     for (PointItem& i : items) i = {glm::vec3(random.on_sphere()), random.real(0.05, 1.0)};
     WeightedTree result{divide(std::span<const PointItem>(items)), {}};
     for (node_index k = 0; k < result.tree.size(); ++k) {
-        result.weights.push_back(result.tree.is_leaf(k) ? static_cast<double>(items[result.tree.item(k)].weight)
-                                                        : result.weights[result.tree.left(k)] + result.weights[result.tree.right(k)]);
+        result.weights.push_back(result.tree.is_leaf(k)
+                                     ? static_cast<double>(items[result.tree.item(k)].weight)
+                                     : result.weights[result.tree.left(k)] + result.weights[result.tree.right(k)]);
     }
     return result;
 }
@@ -57,7 +58,8 @@ void expect_proportional(unsigned limit, int seeds) {
             ++lights;
         }
         if (lights > 1) {
-            EXPECT_LT(chi_square, chi_square_limit(lights - 1)) << "node " << n << " of " << lights << " lights, limit " << limit;
+            EXPECT_LT(chi_square, chi_square_limit(lights - 1))
+                << "node " << n << " of " << lights << " lights, limit " << limit;
         }
     }
 }
@@ -99,7 +101,8 @@ TEST(Representatives, GrowInNumberByMiksiksRule) {
             const Representatives representatives(t.tree, t.weights, limit, seed);
             for (node_index n = 0; n < t.tree.size(); ++n) {
                 if (t.tree.is_leaf(n)) continue;
-                const std::size_t a = representatives.of(t.tree.left(n)).size(), b = representatives.of(t.tree.right(n)).size();
+                const std::size_t a = representatives.of(t.tree.left(n)).size(),
+                                  b = representatives.of(t.tree.right(n)).size();
                 const std::size_t richer = std::max(a, b), poorer = std::min(a, b), own = representatives.of(n).size();
                 ASSERT_LE(own, limit);
                 if (richer == limit) {
@@ -116,9 +119,7 @@ TEST(Representatives, GrowInNumberByMiksiksRule) {
             }
         }
         // With a limit of 2 no parent has a choice.
-        if (limit > 2) {
-            EXPECT_LT(surplus.standard_errors_from(0.0), one_in_a_million) << limit;
-        }
+        if (limit > 2) { EXPECT_LT(surplus.standard_errors_from(0.0), one_in_a_million) << limit; }
     }
 }
 
@@ -163,7 +164,8 @@ TEST(Representatives, OfExtremeWeightsAreValid) {
     for (std::uint64_t seed = 0; seed < 1000; ++seed) {
         EXPECT_EQ(Representatives(t.tree, std::vector<double>{0.0, 1.0, 1.0}, 1, seed).of(2)[0], 1u);
         EXPECT_EQ(Representatives(t.tree, std::vector<double>{1.0, 0.0, 1.0}, 1, seed).of(2)[0], 0u);
-        for (const node_index leaf : Representatives(t.tree, std::vector<double>{0.0, 1.0, 1.0}, 4, seed).of(2)) EXPECT_EQ(leaf, 1u);
+        const Representatives several(t.tree, std::vector<double>{0.0, 1.0, 1.0}, 4, seed);
+        for (const node_index leaf : several.of(2)) EXPECT_EQ(leaf, 1u);
     }
 }
 

@@ -110,7 +110,8 @@ TEST(Oracle, OfFractionsScalesWhatItLetsThrough) {
         const glm::vec3 free = shade(tree, receiver, AlwaysVisible{}, all).radiance;
         const glm::vec3 dimmed = shade(tree, receiver, half, all).radiance;
         for (int c = 0; c < 3; ++c) EXPECT_NEAR(dimmed[c], 0.5f * free[c], 1e-5f * free[c]);
-        const auto dark = shade(tree, receiver, [](const auto&, const auto&) { return false; }, all);
+        const auto dark = shade(
+            tree, receiver, [](const auto&, const auto&) { return false; }, all);
         EXPECT_EQ(dark.radiance, glm::vec3(0.0f));
     }
 }

@@ -107,9 +107,9 @@ inline void ClusterBlock::finish(int count) {
         const float y = detail::larger(detail::magnitude(centre[1][i]) - half[1][i], 0.0f);
         const float z = detail::larger(detail::magnitude(centre[2][i]) - half[2][i], 0.0f);
         const float d2 = x * x + y * y + z * z;
-        const bool in_range = (d2 > 1e-30f) & (d2 < 1e37f);
-        inverse[i] =
-            detail::select(in_range, detail::inverse_sqrt(d2) * 1.000001f, std::numeric_limits<float>::infinity());
+        const bool in_range = detail::smaller(d2 - 1e-30f, 1e37f - d2) > 0.0f;
+        inverse[i] = detail::select(in_range, detail::inverse_sqrt(d2) * 1.000001f,
+                                    std::numeric_limits<float>::infinity());
     }
 }
 
@@ -137,8 +137,9 @@ inline void support(const LaneVectors& v, const ClusterBlock& b, LaneSupport& s)
         const float spread = ax * hx + ay * hy + az * hz;
         s.value[i] = s.at_centre[i] + spread;
         // A product of factors that are not zero is not zero, though it may underflow.
-        const bool any = ((ax > 0.0f) & (magnitude(cx) + hx > 0.0f)) | ((ay > 0.0f) & (magnitude(cy) + hy > 0.0f)) |
-                         ((az > 0.0f) & (magnitude(cz) + hz > 0.0f));
+        const float most = larger(larger(smaller(ax, magnitude(cx) + hx), smaller(ay, magnitude(cy) + hy)),
+                                  smaller(az, magnitude(cz) + hz));
+        const bool any = most > 0.0f;
         s.noise[i] = 1e-6f * (ax * magnitude(cx) + ay * magnitude(cy) + az * magnitude(cz) + spread) +
                      select(any, 1e-37f, 0.0f);
     }
@@ -211,7 +212,9 @@ void lane_power(const LaneVectors& v, const LaneSupport& s, const ClusterBlock& 
         constexpr float largest = std::numeric_limits<float>::max(), infinity = std::numeric_limits<float>::infinity();
         const float inverse = b.inverse[i];
         const float slack = 1e-6f * (magnitude(v.x[0][i]) + magnitude(v.x[1][i]) + magnitude(v.x[2][i])) *
-                            (K == 1 ? 1.0f : K == 2 ? inverse : inverse * inverse);
+                            (K == 1   ? 1.0f
+                             : K == 2 ? inverse
+                                      : inverse * inverse);
         const float padded = larger(best[i] * 1.00001f + slack, 1e-37f);
         // Comparisons that fail for NaN leave infinity.
         result[i] = select(s.value[i] <= -s.noise[i], 0.0f, select(padded < largest, padded, infinity));
@@ -239,7 +242,7 @@ inline void lane_joint(const glm::vec3& n, ClusterBlock& b) {
     support(reversed, b, su);
     alignas(32) ClusterBlock::Lanes lambda;
     for (int i = 0; i < ClusterBlock::width; ++i) {
-        const bool centred = (sn.at_centre[i] > 0.0f) & (su.at_centre[i] > 0.0f);
+        const bool centred = smaller(sn.at_centre[i], su.at_centre[i]) > 0.0f;
         const float top = select(centred, su.at_centre[i], su.value[i] + su.noise[i]);
         const float bottom = select(centred, sn.at_centre[i], sn.value[i] + sn.noise[i]);
         const float square = smaller(larger(top / bottom, 0x1p-12f), 0x1p12f);
@@ -258,7 +261,7 @@ inline void lane_joint(const glm::vec3& n, ClusterBlock& b) {
     alignas(32) ClusterBlock::Lanes root;
     lane_power<2>(v, sv, b, root);
     for (int i = 0; i < ClusterBlock::width; ++i) {
-        const bool behind = (sn.value[i] <= -sn.noise[i]) | (su.value[i] <= -su.noise[i]);
+        const bool behind = smaller(sn.value[i] + sn.noise[i], su.value[i] + su.noise[i]) <= 0.0f;
         // The material sees the direction rounded to float, the emitter as it is: where the material's cosine is mere
         // rounding, its product with the emitter's can exceed that at any one point.
         const float noise = 4e-7f * b.inverse[i] * b.inverse[i];
@@ -319,7 +322,8 @@ inline void lane_oriented(const glm::vec3& n, ClusterBlock& b) {
     lane_inverse_square(n, b);
     for (int i = 0; i < ClusterBlock::width; ++i) {
         // 0 x infinity is a certain zero.
-        const float product = select((emission[i] > 0.0f) & (b.bound[i] > 0.0f), emission[i] * b.bound[i] * 1.000001f, 0.0f);
+        const float product = select(smaller(emission[i], b.bound[i]) > 0.0f, emission[i] * b.bound[i] * 1.000001f,
+                                     0.0f);
         b.bound[i] = select(b.cos_cone[i] == ClusterBlock::one_direction, joint[i], product);
     }
 }

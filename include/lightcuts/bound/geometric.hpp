@@ -95,9 +95,7 @@ double emission_bound(const LightCluster<L>& cluster, const ClusterView& view) {
 template <class Kernel, Light L>
 double geometric_bound(const LightCluster<L>& cluster, const ClusterView& view) {
     if constexpr (cosine_emission<L> && inverse_square<L>) {
-        if (is_single(cluster.cone)) {
-            return Kernel::template power<3>(-glm::dvec3(cluster.cone.axis), view);
-        }
+        if (is_single(cluster.cone)) { return Kernel::template power<3>(-glm::dvec3(cluster.cone.axis), view); }
         return detail::over_distance2(emission_bound<Kernel>(cluster, view), view.distance2);
     } else if constexpr (OrientedLight<L>) {
         const double emission = emission_bound<Kernel>(cluster, view);

@@ -95,8 +95,7 @@ struct QuickKernel {
         const double at_u = detail::dot(u, view.centre);
         const double most_n = support_n.value + support_n.noise;
         const double most_u = support_u.value + support_u.noise;
-        const double lambda2 =
-            detail::clamp(at_n > 0.0 && at_u > 0.0 ? at_u / at_n : most_u / most_n, 0x1p-12, 0x1p12);
+        const double lambda2 = detail::clamp(at_n > 0.0 && at_u > 0.0 ? at_u / at_n : most_u / most_n, 0x1p-12, 0x1p12);
         const double lambda = std::sqrt(lambda2);
         const double mu = 1.0 / lambda;
         const glm::dvec3 v = n * (0.5 * lambda) + u * (0.5 * mu);

@@ -89,16 +89,19 @@ double cosine_lobe_bound(const glm::dvec3& n, const LightCluster<L>& cluster, co
 /// The product of the factors' bounds.
 template <class Kernel, class M, Light L>
 material_spectrum<M> material_bound(const M& material, const LightCluster<L>& cluster, const ClusterView& view) {
+    static_assert(
+        BoundedMaterial<M> || CompositeMaterial<M> || CosineLobeMaterial<M>,
+        "a material needs upper_bound(offsets) const, which returns the spectrum that evaluate(to_light) does; "
+        "or a stated cap: Capped{material, cap}");
     using S = material_spectrum<M>;
     if constexpr (CompositeMaterial<M>) {
         S sum{};
-        material.for_each_component(
-            [&](const auto& part) { sum = sum + material_bound<Kernel>(part, cluster, view); });
+        material.for_each_component([&](const auto& part) { sum = sum + material_bound<Kernel>(part, cluster, view); });
         return sum;
     } else if constexpr (CosineLobeMaterial<M>) {
         const auto lobe = material.cosine_lobe();
         return scale_bound(S(lobe.scale), cosine_lobe_bound<Kernel>(glm::dvec3(lobe.normal), cluster, view));
-    } else {
+    } else if constexpr (BoundedMaterial<M>) {
         const double geometric = geometric_bound<Kernel>(cluster, view);
         if (!(geometric > 0.0)) return S{};
         if constexpr (std::same_as<Kernel, QuickKernel>) {
@@ -111,7 +114,8 @@ material_spectrum<M> material_bound(const M& material, const LightCluster<L>& cl
 
 /// True if ClusterBlock has vector code for lights of kind `L`.
 template <Light L>
-inline constexpr bool has_lanes = DirectionalLight<L> || (inverse_square<L> && (!OrientedLight<L> || cosine_emission<L>));
+inline constexpr bool has_lanes = DirectionalLight<L> ||
+                                  (inverse_square<L> && (!OrientedLight<L> || cosine_emission<L>));
 
 /// The box that a material is asked about.
 template <Light L>
@@ -199,8 +203,9 @@ struct SeparateBounds {
 /// about to be split.
 struct TwoStageBounds {
     static constexpr bool two_stages = true;
-    /// Clusters whose quick bound is above the threshold by less than this factor get the tight one.
-    double doubt = 1.15;
+    /// Clusters whose quick bound is above the threshold by less than this factor get the tight one before they are
+    /// split. 1: none, the fastest where a shadow ray costs less than a microsecond; 1.5 pays for dear oracles.
+    double doubt = 1.0;
 
     template <class M, Light L>
     material_spectrum<M> quick(const M& material, const LightCluster<L>& cluster, const glm::vec3& point) const {

@@ -99,7 +99,8 @@ inline double needed_sin2_half(const glm::dvec3& axis, const glm::dvec3& other, 
     const HalfAngle sum = half_between(axis, other) + half;
     if (sum.cos <= slack) return 1.0;
     const double s = sum.sin + slack;
-    return s * s * (1.0 + slack);
+    // A float's roundoff more than needed: g++ 12 drops the outward rounding of two of these when it vectorises them.
+    return s * s * (1.0 + 0x1p-23);
 }
 
 /// A unit vector perpendicular to the unit vector `a`.

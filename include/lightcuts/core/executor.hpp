@@ -10,7 +10,9 @@ namespace lightcuts {
 /// An exception thrown by a task may end the executor as its author likes; the library's tasks throw only
 /// std::bad_alloc.
 template <class E>
-concept Executor = requires(const E& execute, std::size_t count, void (*task)(std::size_t)) { execute(count, task); };
+concept Executor = requires(const E& execute, std::size_t count, void (*task)(std::size_t)) {
+    execute(count, task);
+};
 
 /// The default executor: a loop on the calling thread.
 struct Sequential {

@@ -45,8 +45,8 @@ struct spectrum_traits<S> {
 template <class S>
 concept Spectrum = std::copyable<S> && std::default_initializable<S> && requires(S a, const S b, float k, int i) {
     { b + b } -> std::convertible_to<S>;
-    { b * b } -> std::convertible_to<S>;
-    { b * k } -> std::convertible_to<S>;
+    { b* b } -> std::convertible_to<S>;
+    { b* k } -> std::convertible_to<S>;
     { spectrum_traits<S>::channels } -> std::convertible_to<int>;
     { spectrum_traits<S>::channel(b, i) } -> std::convertible_to<float>;
     spectrum_traits<S>::set(a, i, k);
@@ -104,6 +104,20 @@ constexpr S finite(const S& s) {
     return make_spectrum<S>([&](int i) {
         const float c = channel(s, i);
         return c < largest ? c : largest;
+    });
+}
+
+/// Channel-wise a * b for a, b >= 0, with 0 * infinity = 0 and no channel above the largest float.
+template <Spectrum S>
+constexpr S finite_product(const S& a, const S& b) {
+    const S product = a * b;
+    const double sum = channel_sum(product);
+    if (sum <= static_cast<double>(std::numeric_limits<float>::max())) return product;
+    return make_spectrum<S>([&](int i) {
+        constexpr float largest = std::numeric_limits<float>::max();
+        const float x = channel(a, i), y = channel(b, i);
+        if (!(x > 0.0f && y > 0.0f)) return 0.0f;
+        return x * y < largest ? x * y : largest;
     });
 }
 

@@ -7,7 +7,9 @@
 #include <type_traits>
 #include <utility>
 
+#include "../material/material.hpp"
 #include "../tree/light_tree.hpp"
+#include "../visibility/oracle.hpp"
 
 namespace lightcuts {
 
@@ -17,7 +19,7 @@ template <Light... Ls>
     requires(sizeof...(Ls) > 0)
 class LightForest {
 public:
-    using spectrum = std::common_type_t<spectrum_of<Ls>...>;
+    using spectrum = std::tuple_element_t<0, std::tuple<spectrum_of<Ls>...>>;
     static_assert((std::same_as<spectrum, spectrum_of<Ls>> && ...), "all lights of a forest need the same spectrum");
     static constexpr std::uint32_t kinds = sizeof...(Ls);
 
@@ -63,6 +65,22 @@ private:
     std::tuple<const LightTree<Ls>*...> trees_;
 };
 
+namespace detail {
+
+/// True if `M` reflects light of spectrum `S`; also if it is no material, which is said elsewhere.
+template <class M, class S>
+inline constexpr bool reflects = true;
+template <Material M, class S>
+inline constexpr bool reflects<M, S> = std::same_as<material_spectrum<M>, S>;
+
+/// True if `Oracle` can be asked about every light of the forest.
+template <class Oracle, class R, class Forest>
+inline constexpr bool answers = false;
+template <class Oracle, class R, Light... Ls>
+inline constexpr bool answers<Oracle, R, LightForest<Ls...>> = (VisibilityOracle<Oracle, R, Ls> && ...);
+
+}  // namespace detail
+
 /// A tree as a forest of one; a forest as it is. Algorithms take either.
 template <Light L>
 LightForest<L> as_forest(const LightTree<L>& tree) {
@@ -75,7 +93,9 @@ const LightForest<Ls...>& as_forest(const LightForest<Ls...>& forest) {
 
 /// A LightTree or a LightForest.
 template <class T>
-concept TreeOrForest = requires(const T& lights) { as_forest(lights); };
+concept TreeOrForest = requires(const T& lights) {
+    as_forest(lights);
+};
 
 template <TreeOrForest T>
 using forest_of = std::remove_cvref_t<decltype(as_forest(std::declval<const T&>()))>;

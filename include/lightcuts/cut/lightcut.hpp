@@ -155,7 +155,7 @@ void shade_one_by_one(const Forest& forest, std::span<const Receiver<M>> receive
     auto& slot = scratch.slots.front();
     for (std::size_t i = 0; i < receivers.size(); ++i) {
         LightcutProblem<Forest, Receiver<M>, Oracle, Policy> problem(forest, receivers[i], oracle, policy, options,
-                                                                    slot.totals, scratch.queries);
+                                                                     slot.totals, scratch.queries);
         slot.refinement.run(problem, refinement);
         results[i] = cut_result(slot.refinement, slot.totals);
     }
@@ -169,7 +169,7 @@ void shade_in_lock_step(const Forest& forest, std::span<const Receiver<M>> recei
     const RefinementOptions refinement = refinement_options(forest, options);
     const auto problem_of = [&](std::size_t i, auto& slot) {
         return LightcutProblem<Forest, Receiver<M>, Oracle, Policy>(forest, receivers[i], oracle, policy, options,
-                                                                   slot.totals, scratch.queries);
+                                                                    slot.totals, scratch.queries);
     };
     if (scratch.slots.size() < receivers.size()) scratch.slots.resize(receivers.size());
     scratch.queries.clear();
@@ -225,9 +225,8 @@ void shade(const Lights& lights, std::span<const Receiver<M>> receivers, const O
 /// The same for vectors.
 template <TreeOrForest Lights, class M, class Oracle, class Policy = TwoStageBounds>
 void shade(const Lights& lights, const std::vector<Receiver<M>>& receivers, const Oracle& oracle,
-           std::vector<CutResult<forest_spectrum<Lights>>>& results,
-           LightcutScratch<forest_spectrum<Lights>>& scratch, const LightcutOptions& options = {},
-           const Policy& policy = {}) {
+           std::vector<CutResult<forest_spectrum<Lights>>>& results, LightcutScratch<forest_spectrum<Lights>>& scratch,
+           const LightcutOptions& options = {}, const Policy& policy = {}) {
     results.resize(receivers.size());
     shade(lights, std::span<const Receiver<M>>(receivers), oracle, std::span(results), scratch, options, policy);
 }
@@ -237,8 +236,7 @@ template <TreeOrForest Lights, class M, class Oracle = AlwaysVisible, class Poli
 CutResult<forest_spectrum<Lights>> shade(const Lights& lights, const Receiver<M>& receiver, const Oracle& oracle = {},
                                          const LightcutOptions& options = {}, const Policy& policy = {}) {
     Lightcut<forest_of<Lights>, Receiver<M>, Oracle, Policy> cut(lights, receiver, oracle, options, policy);
-    while (cut.step()) {
-    }
+    while (cut.step()) {}
     return cut.result();
 }
 

@@ -36,10 +36,10 @@ struct CutTotals {
     static constexpr std::size_t channels = static_cast<std::size_t>(channels_of<S>);
     using Sums = std::array<double, channels>;
 
-    Sums total{};         ///< running sum of the estimates
-    double largest = 0;   ///< largest running sum since it was last computed afresh
-    Sums weight{};        ///< 1 / (total + adaptation): what turns a bound into a priority
-    Sums least{};         ///< least weights since the last mark
+    Sums total{};        ///< running sum of the estimates
+    double largest = 0;  ///< largest running sum since it was last computed afresh
+    Sums weight{};       ///< 1 / (total + adaptation): what turns a bound into a priority
+    Sums least{};        ///< least weights since the last mark
     std::uint32_t queries = 0;
 };
 
@@ -49,6 +49,15 @@ class LightcutProblem {
 public:
     using S = typename Forest::spectrum;
     using node = CutNode<S>;
+    using material = std::remove_cvref_t<decltype(R::material)>;
+
+    static_assert(Material<material>, "a material needs evaluate(to_light) const, which returns a Spectrum");
+    static_assert(
+        detail::reflects<material, S>,
+        "a material's evaluate(to_light) needs to return the spectrum in which the lights state their intensity");
+    static_assert(detail::answers<Oracle, R, Forest>,
+                  "an oracle needs operator()(receiver, light) const, which returns a bool or a fraction, or "
+                  "many(queries, answers) const");
 
     LightcutProblem(const Forest& forest, const R& receiver, const Oracle& oracle, const Policy& policy,
                     const LightcutOptions& options, CutTotals<S>& totals, std::vector<VisibilityQuery>& queries)
@@ -207,7 +216,7 @@ private:
         const auto& light = tree.lights()[item];
         n.terms = unshadowed_terms(receiver_, light);
         if (is_black(n.terms)) return;
-        n.estimate = finite(S(n.terms * tree.clusters()[index].intensity));
+        n.estimate = finite_product(n.terms, tree.clusters()[index].intensity);
         if constexpr (std::same_as<Oracle, AlwaysVisible>) return;
         n.queried = true;
         ++totals_.queries;
@@ -229,7 +238,7 @@ private:
         node& n = add_node(tree, parent.kind, index, parent.unit_bound, out);
         n.representative = parent.representative;
         n.terms = parent.terms;
-        n.estimate = finite(S(n.terms * tree.clusters()[index].intensity));
+        n.estimate = finite_product(n.terms, tree.clusters()[index].intensity);
     }
 
     template <class Tree>
@@ -238,7 +247,10 @@ private:
         std::array<const Cluster*, batch> clusters;
         std::array<S, batch> units;
         for (std::size_t i = 0; i < nodes.size(); ++i) clusters[i] = &tree.clusters()[nodes[i]->node];
-        if constexpr (requires { policy_.quick_many(receiver_.material, receiver_.position, clusters.data(), nodes.size(), units.data()); }) {
+        if constexpr (requires {
+                          policy_.quick_many(receiver_.material, receiver_.position, clusters.data(), nodes.size(),
+                                             units.data());
+                      }) {
             policy_.quick_many(receiver_.material, receiver_.position, clusters.data(), nodes.size(), units.data());
         } else {
             for (std::size_t i = 0; i < nodes.size(); ++i) {

@@ -18,7 +18,7 @@ struct LightcutOptions {
     /// Of the choice among several representatives.
     std::uint64_t seed = 1;
     /// See RefinementOptions.
-    double round_fraction = 0.25;
+    double round_fraction = 0.1;
 };
 
 }  // namespace lightcuts

@@ -51,8 +51,8 @@ struct RefinementOptions {
     /// Largest number of nodes in the cut; the starting frontier is kept even if it is larger.
     std::size_t max_nodes = std::numeric_limits<std::size_t>::max();
     /// A round splits nodes down to this fraction of the largest finite priority. 1: one at a time, the order of
-    /// the papers; 0.25: a tenth of the rounds for under one per cent more nodes.
-    double round_fraction = 0.25;
+    /// the papers; 0.1: a tenth of the rounds for under one per cent more nodes.
+    double round_fraction = 0.1;
 };
 
 /// The one refinement engine: a frontier of nodes, refined in rounds until no priority is above the threshold or
@@ -125,8 +125,7 @@ public:
     template <RefinementProblem P>
     void run(P& problem, const RefinementOptions& options) {
         start(problem);
-        while (step(problem, options)) {
-        }
+        while (step(problem, options)) {}
     }
 
     /// Nodes that wait for evaluation.
@@ -196,8 +195,7 @@ private:
         const auto middle = chosen_.begin() + static_cast<std::ptrdiff_t>(count);
         std::nth_element(chosen_.begin(), middle, chosen_.end(), larger);
         chosen_.erase(middle, chosen_.end());
-        std::sort(chosen_.begin(), chosen_.end(),
-                  [](const Candidate& a, const Candidate& b) { return a.at < b.at; });
+        std::sort(chosen_.begin(), chosen_.end(), [](const Candidate& a, const Candidate& b) { return a.at < b.at; });
     }
 
     template <class P>

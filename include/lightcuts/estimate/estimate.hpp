@@ -39,7 +39,9 @@ namespace detail {
 /// Unshadowed contribution of one light: terms x intensity.
 template <class M, Light L>
 spectrum_of<L> unshadowed(const Receiver<M>& receiver, const L& light) {
-    return finite(spectrum_of<L>(unshadowed_terms(receiver, light) * intensity_of(light)));
+    static_assert(Material<std::remove_cvref_t<M>>,
+                  "a material needs evaluate(to_light) const, which returns a Spectrum");
+    return finite_product(unshadowed_terms(receiver, light), spectrum_of<L>(intensity_of(light)));
 }
 
 template <Spectrum S>
@@ -60,14 +62,17 @@ struct RadianceSum {
 template <class Forest, class M, class Oracle, Spectrum S, class Contribution, class Take>
 void ask(const Forest& forest, const Receiver<M>& receiver, const Oracle& oracle, EstimateScratch<S>& scratch,
          std::span<const Contribution> contributions, Take&& take) {
+    static_assert(answers<Oracle, Receiver<M>, Forest>,
+                  "an oracle needs operator()(receiver, light) const, which returns a bool or a fraction, or "
+                  "many(queries, answers) const");
     if constexpr (BatchedOracle<Oracle>) {
         scratch.queries.clear();
         for (const Contribution& c : contributions) {
             forest.visit(c.kind, [&](const auto& tree) {
                 const auto& light = tree.lights()[c.light];
                 using L = typename std::remove_cvref_t<decltype(tree)>::light_type;
-                scratch.queries.push_back({receiver.shadow_origin, receiver.id, place_of(light), c.light, c.kind,
-                                           DirectionalLight<L>});
+                scratch.queries.push_back(
+                    {receiver.shadow_origin, receiver.id, place_of(light), c.light, c.kind, DirectionalLight<L>});
             });
         }
         scratch.answers.resize(scratch.queries.size());

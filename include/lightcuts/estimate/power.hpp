@@ -72,9 +72,7 @@ Estimate<typename Forest::spectrum> power_sampling(const Forest& forest, const P
     }
     detail::RadianceSum<S> sum;
     detail::ask(forest, receiver, oracle, scratch, std::span<const Contribution>(scratch.contributions),
-                [&](const Contribution& c, float visibility) {
-                    sum.add(c.radiance, static_cast<double>(visibility));
-                });
+                [&](const Contribution& c, float visibility) { sum.add(c.radiance, static_cast<double>(visibility)); });
     result.queries = static_cast<std::uint32_t>(scratch.contributions.size());
     result.radiance = sum.value();
     return result;

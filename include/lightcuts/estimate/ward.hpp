@@ -12,8 +12,7 @@ namespace lightcuts {
 /// pre: threshold >= 0. cost: linear in the lights, plus a sort, plus the rays tested, in blocks of 16.
 template <class Forest, class M, class Oracle>
 Estimate<typename Forest::spectrum> ward(const Forest& forest, const Receiver<M>& receiver, const Oracle& oracle,
-                                         float threshold,
-                                         EstimateScratch<typename Forest::spectrum>& scratch) {
+                                         float threshold, EstimateScratch<typename Forest::spectrum>& scratch) {
     using S = typename Forest::spectrum;
     using Contribution = typename EstimateScratch<S>::Contribution;
     constexpr std::size_t block = 16;
@@ -32,8 +31,8 @@ Estimate<typename Forest::spectrum> ward(const Forest& forest, const Receiver<M>
                   return a.kind != b.kind ? a.kind < b.kind : a.light < b.light;
               });
 
-    // sums[i]: of the contributions from i on. Added up from the faintest, since the difference of the whole and of what
-    // was tested is only noise where the bright lights are shadowed.
+    // sums[i]: of the contributions from i on. Added up from the faintest, since the difference of the whole and of
+    // what was tested is only noise where the bright lights are shadowed.
     scratch.sums.assign(scratch.contributions.size() + 1, 0.0);
     for (std::size_t i = scratch.contributions.size(); i-- > 0;) {
         scratch.sums[i] = scratch.sums[i + 1] + channel_sum(scratch.contributions[i].radiance);
@@ -43,8 +42,8 @@ Estimate<typename Forest::spectrum> ward(const Forest& forest, const Receiver<M>
     detail::RadianceSum<S> found;
     double found_sum = 0.0, tested_sum = 0.0;
     std::span<const Contribution> left(scratch.contributions);
-    while (!left.empty() && scratch.sums[scratch.contributions.size() - left.size()] >
-                                static_cast<double>(threshold) * found_sum) {
+    while (!left.empty() &&
+           scratch.sums[scratch.contributions.size() - left.size()] > static_cast<double>(threshold) * found_sum) {
         const auto tested = left.first(std::min(block, left.size()));
         detail::ask(forest, receiver, oracle, scratch, tested, [&](const Contribution& c, float visibility) {
             found.add(c.radiance, static_cast<double>(visibility));

@@ -24,8 +24,9 @@ namespace detail {
 /// Defines `NAME_of(light)`: the trait if there is one, else the member function, else the data member.
 #define LIGHTCUTS_LIGHT_PROPERTY(NAME)                                                        \
     template <class L>                                                                        \
-        requires requires(const L& l) { light_traits<L>::NAME(l); } ||                        \
-                 requires(const L& l) { l.NAME(); } || requires(const L& l) { l.NAME; }       \
+        requires requires(const L& l) { light_traits<L>::NAME(l); } || requires(const L& l) { \
+            l.NAME();                                                                         \
+        } || requires(const L& l) { l.NAME; }                                                 \
     constexpr auto NAME##_of(const L& l) {                                                    \
         if constexpr (requires { light_traits<L>::NAME(l); }) {                               \
             return light_traits<L>::NAME(l);                                                  \
@@ -43,16 +44,17 @@ LIGHTCUTS_LIGHT_PROPERTY(envelope)
 #undef LIGHTCUTS_LIGHT_PROPERTY
 
 /// Defines `NAME_of(light, argument)` likewise for a function of one number.
-#define LIGHTCUTS_LIGHT_FUNCTION(NAME)                                                        \
-    template <class L>                                                                        \
-        requires requires(const L& l) { light_traits<L>::NAME(l, 0.0f); } ||                  \
-                 requires(const L& l) { l.NAME(0.0f); }                                       \
-    constexpr float NAME##_of(const L& l, float x) {                                          \
-        if constexpr (requires { light_traits<L>::NAME(l, 0.0f); }) {                         \
-            return light_traits<L>::NAME(l, x);                                               \
-        } else {                                                                              \
-            return l.NAME(x);                                                                 \
-        }                                                                                     \
+#define LIGHTCUTS_LIGHT_FUNCTION(NAME)                                                              \
+    template <class L>                                                                              \
+        requires requires(const L& l) { light_traits<L>::NAME(l, 0.0f); } || requires(const L& l) { \
+            l.NAME(0.0f);                                                                           \
+        }                                                                                           \
+    constexpr float NAME##_of(const L& l, float x) {                                                \
+        if constexpr (requires { light_traits<L>::NAME(l, 0.0f); }) {                               \
+            return light_traits<L>::NAME(l, x);                                                     \
+        } else {                                                                                    \
+            return l.NAME(x);                                                                       \
+        }                                                                                           \
     }
 LIGHTCUTS_LIGHT_FUNCTION(emission)
 LIGHTCUTS_LIGHT_FUNCTION(falloff)
@@ -67,8 +69,9 @@ using spectrum_of = std::remove_cvref_t<decltype(detail::intensity_of(std::declv
 namespace detail {
 template <class L>
 concept HasIntensity = requires(const L& l) {
-    { detail::intensity_of(l) };
-} && Spectrum<spectrum_of<L>>;
+    {detail::intensity_of(l)};
+}
+&&Spectrum<spectrum_of<L>>;
 }  // namespace detail
 
 /// A light at a point. `position`: units of the scene; `intensity`: W/sr, the peak where emission varies.
@@ -97,10 +100,14 @@ concept OrientedLight = PointLight<L> && requires(const L& l) {
 
 /// An oriented light with a profile of its own: `emission(cos)` in [0, 1] for any cos in [-1, 1] about the axis.
 template <class L>
-concept ProfiledLight = OrientedLight<L> && requires(const L& l) { detail::emission_of(l, 0.0f); };
+concept ProfiledLight = OrientedLight<L> && requires(const L& l) {
+    detail::emission_of(l, 0.0f);
+};
 
 /// A point light with an attenuation of its own: `falloff(distance)`; without it 1/d^2.
 template <class L>
-concept FalloffLight = PointLight<L> && requires(const L& l) { detail::falloff_of(l, 0.0f); };
+concept FalloffLight = PointLight<L> && requires(const L& l) {
+    detail::falloff_of(l, 0.0f);
+};
 
 }  // namespace lightcuts

@@ -13,14 +13,10 @@ struct OrientedPointLight {
     S intensity{};                     ///< W/sr, along the axis
     [[no_unique_address]] Falloff attenuation{};
 
-    constexpr float falloff(float distance) const
-        requires(!std::same_as<Falloff, InverseSquare>)
-    {
+    constexpr float falloff(float distance) const requires(!std::same_as<Falloff, InverseSquare>) {
         return attenuation(distance);
     }
-    constexpr FalloffEnvelope<Falloff> envelope() const
-        requires(!std::same_as<Falloff, InverseSquare>)
-    {
+    constexpr FalloffEnvelope<Falloff> envelope() const requires(!std::same_as<Falloff, InverseSquare>) {
         return {attenuation};
     }
 };

@@ -17,7 +17,7 @@ struct SpotProfile {
     }
     /// Largest emission for cosines in [cos_min, cos_max]. The 1e-6 absorbs the rounding of the ramp.
     constexpr float emission_bound(float, float cos_max) const {
-        const float peak = (*this)(cos_max) * 1.000001f;
+        const float peak = (*this)(cos_max)*1.000001f;
         return peak > 1.0f ? 1.0f : peak;
     }
     /// The profile that is nowhere below `a` or `b`: both ramps start and end at the wider angles.

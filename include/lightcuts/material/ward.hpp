@@ -73,8 +73,9 @@ public:
 
 private:
     double lobe(double cosine, double tan2) const {
-        return 0.07957747154594767 / alpha2_ * Normalisation::factor(frame_.cos_view(), cosine, tan2) *
-               std::exp(-tan2 / alpha2_);
+        const double fall = std::exp(-tan2 / alpha2_);
+        if (!(fall > 0.0)) return 0.0;  // where the factor may be infinite
+        return 0.07957747154594767 / alpha2_ * Normalisation::factor(frame_.cos_view(), cosine, tan2) * fall;
     }
 
     static double squared_tangent(double sin2) { return sin2 < 1.0 ? sin2 / (1.0 - sin2) : 1e300; }

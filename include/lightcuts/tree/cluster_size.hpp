@@ -11,15 +11,18 @@
 #include <glm/vec3.hpp>
 
 #include "../core/cone.hpp"
-#include "record.hpp"
+#include "frame.hpp"
 
 namespace lightcuts {
 
 /// The papers' dissimilarity of two clusters: the size of their union, I (alpha^2 + c^2 (1 - cos beta)^2), with its
-/// intensity I, the diagonal alpha of its box, and the half-angle beta of the cone around both clusters' cones
-/// [Walter et al. 2005, Section 4]. Lengths are in units of the diagonal of all items' box.
+/// intensity I, the diagonal alpha of its box, and the half-angle beta of the smallest cone around both clusters'
+/// cones [Walter et al. 2005, Section 4]. Lengths are in units of the diagonal of all items' box.
+///
+/// A factor 1 + 2^-42 per item orders what differs by rounding errors only: the smaller cluster comes first. Equal
+/// sizes are merged in the order of the number of items, the smallest item, and the other cluster's smallest item.
 struct ClusterSize {
-    double direction = 1;  ///< c for items with an axis, in units of the diagonal; 0 ignores axes
+    double direction = 1;  ///< c for items with an axis, in units of the diagonal, at most 1e6; 0 ignores axes
 };
 
 namespace detail {
@@ -40,8 +43,7 @@ struct Cluster<true> : Cluster<false> {
     double inverse_length;  ///< of the axis as stored
 };
 
-/// Order of greedy merging: smaller union first; ties go to the pair with fewer items, then to the smallest item,
-/// then to the smallest item of the other cluster.
+/// The order of greedy merging: of a pair, the size of the union, its number of items, the smaller id, the other id.
 struct Rank {
     double size;
     std::uint32_t count, id, other_id;
@@ -77,19 +79,20 @@ inline double merged_one_minus_cos(const Cluster<true>& a, const Cluster<true>& 
     return std::max(merged, std::max(one_minus_cos(a.cone), one_minus_cos(b.cone)));
 }
 
-/// A factor by which a merged cluster counts as larger per item: far above rounding errors, far below what matters.
-/// It makes the size strictly monotone as computed, that is, size(a, b + c) > size(a, b), unless both are zero:
-/// boxes and sums of weights are monotone in floating point; the cone around a and b + c holds that around a and b,
-/// so exact values of 1 - cos beta are monotone and computed ones to 1e-14 or better.
+/// What makes the size strictly monotone as computed: size(a, b + c) > size(a, b), unless both are zero. Boxes and sums
+/// of weights are monotone in floating point. The cone around a and b + c holds the one around a and b (stored cones
+/// are rounded outward), so exact values of 1 - cos beta are monotone and computed ones are up to a relative 1e-14,
+/// which this factor per item exceeds.
 inline constexpr double growth_per_item = 0x1p-42;
 
-/// The dissimilarity. Not inlined, so that every caller gets the same bits whatever the compiler makes of each.
-/// pre: called with the same order of arguments for the same pair, smaller id first.
+/// The dissimilarity. pre: a.id < b.id, so that it is symmetric to the last bit. Not inlined, so that all callers get
+/// the same bits.
 template <bool Oriented>
 [[gnu::noinline]] inline double union_size(const Cluster<Oriented>& a, const Cluster<Oriented>& b, double direction) {
     double size = 0;
     for (std::size_t i = 0; i < 3; ++i) {
-        const double e = static_cast<double>(std::max(a.hi[i], b.hi[i])) - static_cast<double>(std::min(a.lo[i], b.lo[i]));
+        const double e = static_cast<double>(std::max(a.hi[i], b.hi[i])) -
+                         static_cast<double>(std::min(a.lo[i], b.lo[i]));
         size += e * e;
     }
     if constexpr (Oriented) {
@@ -101,8 +104,9 @@ template <bool Oriented>
 
 template <bool Oriented>
 Rank rank(const Cluster<Oriented>& a, const Cluster<Oriented>& b, double direction) {
-    if (b.id < a.id) return rank(b, a, direction);
-    return {union_size<Oriented>(a, b, direction), a.count + b.count, a.id, b.id};
+    const Cluster<Oriented>& first = a.id < b.id ? a : b;
+    const Cluster<Oriented>& second = a.id < b.id ? b : a;
+    return {union_size(first, second, direction), a.count + b.count, first.id, second.id};
 }
 
 /// Fills what is derived from the cone.
@@ -118,9 +122,10 @@ inline std::array<float, 3> unit_axis(const Cluster<true>& c) {
     return {axis.x, axis.y, axis.z};
 }
 
+/// The union. Does not depend on the order of arguments.
 template <bool Oriented>
 Cluster<Oriented> merge(const Cluster<Oriented>& a, const Cluster<Oriented>& b) {
-    Cluster<Oriented> c;
+    Cluster<Oriented> c = a;
     for (std::size_t i = 0; i < 3; ++i) {
         c.lo[i] = std::min(a.lo[i], b.lo[i]);
         c.hi[i] = std::max(a.hi[i], b.hi[i]);
@@ -129,12 +134,7 @@ Cluster<Oriented> merge(const Cluster<Oriented>& a, const Cluster<Oriented>& b) 
     c.count = a.count + b.count;
     c.id = std::min(a.id, b.id);
     if constexpr (Oriented) {
-        if (a.cone == b.cone) {
-            c.cone = a.cone;
-            c.half = a.half;
-            c.inverse_length = a.inverse_length;
-        } else {
-            // Smaller id first, so that the cone does not depend on the order of arguments.
+        if (!(a.cone == b.cone)) {
             set_cone(c, a.id < b.id ? lightcuts::merge(a.cone, b.cone) : lightcuts::merge(b.cone, a.cone));
         }
     }

@@ -13,14 +13,10 @@
 #include "cluster_tree.hpp"
 #include "item.hpp"
 #include "longest_axis.hpp"
+#include "progress.hpp"
 #include "record.hpp"
 
 namespace lightcuts {
-
-/// Ignores progress.
-struct NoProgress {
-    constexpr void operator()(std::size_t) const {}
-};
 
 namespace detail {
 
@@ -30,49 +26,49 @@ template <class Record, class Splitter>
 class Divider {
 public:
     Divider(const Splitter& splitter, std::span<std::uint32_t> words)
-        : splitter_(splitter), words_(words), max_depth_(2 * static_cast<unsigned>(std::bit_width(words.size())) + 16) {}
+        : splitter_(splitter), words_(words), max_depth_(2 * static_cast<unsigned>(std::bit_width(words.size())) + 16) {
+    }
 
     /// Writes the root of a part. pre: at least 2 records.
-    std::pair<Part<Record>, Part<Record>> split(const Part<Record>& part) const {
+    Halves<Record> split(const Part<Record>& part) const {
         words_[part.first_node + 2 * part.records.size() - 2] = part.first_node;
         // Sets made to be peeled one by one must not make the tree, or the stack, deep.
-        auto halves = part.depth < max_depth_ ? splitter_.split(part) : LongestAxis{}.split(part);
-        auto& [left, right] = halves;
-        left.first_node = part.first_node;
-        right.first_node = part.first_node + static_cast<std::uint32_t>(2 * left.records.size() - 1);
-        left.depth = right.depth = part.depth + 1;
+        Halves<Record> halves = part.depth < max_depth_ ? splitter_.split(part) : LongestAxis{}.split(part);
+        halves.left.first_node = part.first_node;
+        halves.right.first_node = part.first_node + static_cast<std::uint32_t>(2 * halves.left.records.size() - 1);
+        halves.left.depth = halves.right.depth = part.depth + 1;
         return halves;
     }
 
     void build(const Part<Record>& part) const {
+        const std::uint32_t first = part.first_node;
         if (part.records.size() == 1) {
-            words_[part.first_node] = ClusterTree::leaf_word(part.records.front().item());
-            return;
+            write_leaf(first, part.records[0]);
+        } else if (part.records.size() == 2) {
+            write_leaf(first, part.records[0]);
+            write_leaf(first + 1, part.records[1]);
+            words_[first + 2] = first;
+        } else {
+            const Halves<Record> halves = split(part);
+            build(halves.left);
+            build(halves.right);
         }
-        if (part.records.size() == 2) {
-            words_[part.first_node] = ClusterTree::leaf_word(part.records[0].item());
-            words_[part.first_node + 1] = ClusterTree::leaf_word(part.records[1].item());
-            words_[part.first_node + 2] = part.first_node;
-            return;
-        }
-        const auto [left, right] = split(part);
-        build(left);
-        build(right);
     }
 
 private:
+    void write_leaf(std::uint32_t node, const Record& r) const { words_[node] = ClusterTree::leaf_word(r.item()); }
+
     const Splitter& splitter_;
     std::span<std::uint32_t> words_;
     unsigned max_depth_;
 };
 
-template <class Item, class Splitter, class E, class Progress>
-ClusterTree divide(std::span<const Item> items, const Splitter& splitter, const E& execute, Progress& progress) {
+template <class Item, class Splitter, class E, class P>
+ClusterTree divide(std::span<const Item> items, const Splitter& splitter, const E& execute, P& progress) {
     check_items(items);
     if (items.empty()) return {};
     using Record = record_of<Item>;
-    using PartPair = std::pair<Part<Record>, Part<Record>>;
-    auto storage = make_records(items);
+    const auto storage = make_records(items);
     const std::span<Record> records(storage.get(), items.size());
     std::vector<std::uint32_t> words(2 * items.size() - 1);
     const Divider<Record, Splitter> divider(splitter, words);
@@ -80,15 +76,15 @@ ClusterTree divide(std::span<const Item> items, const Splitter& splitter, const 
     // Step 1: split level by level down to parts of a fixed size, whatever the number of threads.
     const std::size_t grain = std::max<std::size_t>(items.size() / 128, 4096);
     std::vector<Part<Record>> large, small;
-    const auto sort_in = [&](const Part<Record>& part) { (part.records.size() > grain ? large : small).push_back(part); };
-    sort_in({records, Bounds<Record>::none()});
+    const auto file = [&](const Part<Record>& part) { (part.records.size() > grain ? large : small).push_back(part); };
+    file({records, Bounds<Record>::none()});
     while (!large.empty()) {
-        std::vector<PartPair> halves(large.size());
+        std::vector<Halves<Record>> halves(large.size());
         execute(large.size(), [&](std::size_t i) { halves[i] = divider.split(large[i]); });
         large.clear();
-        for (const auto& [left, right] : halves) {
-            sort_in(left);
-            sort_in(right);
+        for (const Halves<Record>& h : halves) {
+            file(h.left);
+            file(h.right);
         }
     }
     // Step 2: each part is a task of its own.
@@ -102,20 +98,18 @@ ClusterTree divide(std::span<const Item> items, const Splitter& splitter, const 
 }  // namespace detail
 
 /// Builds a tree from the top down: `splitter` divides a set in two until single items remain.
-/// `progress(n)` is told that n more items are in place; it is called from the executor's threads.
-/// The tree does not depend on the executor. Its depth is at most 3 log2 N + 20, for coincident items log2 N.
+/// The tree does not depend on the executor. Its depth is at most 3 log2 N + 20; for coincident items ceil(log2 N).
 /// throws: invalid_input naming the item: position not finite, weight not positive, axis not of unit length; or too
-/// many items. cost: O(N log N) time; temporary memory of 20 (oriented 32) bytes an item besides the tree's 8.
-template <class Splitter = Binned, Executor E = Sequential, class Progress = NoProgress>
-ClusterTree divide(std::span<const PointItem> items, Splitter splitter = {}, const E& execute = {},
-                   Progress progress = {}) {
+/// many items. cost: O(N log N); temporary memory of 20 (oriented: 32) bytes an item besides the tree's 8.
+template <class Splitter = Binned, Executor E = Sequential, Progress P = NoProgress>
+ClusterTree divide(std::span<const PointItem> items, Splitter splitter = {}, const E& execute = {}, P progress = {}) {
     return detail::divide(items, splitter, execute, progress);
 }
 
-/// Likewise for items with a direction.
-template <class Splitter = Binned, Executor E = Sequential, class Progress = NoProgress>
+/// Likewise for items with an axis.
+template <class Splitter = Binned, Executor E = Sequential, Progress P = NoProgress>
 ClusterTree divide(std::span<const OrientedItem> items, Splitter splitter = {}, const E& execute = {},
-                   Progress progress = {}) {
+                   P progress = {}) {
     return detail::divide(items, splitter, execute, progress);
 }
 

@@ -40,9 +40,9 @@ struct LightCluster {
     using envelope_type = typename detail::EnvelopeType<L>::type;
 
     Box box;
-    spectrum intensity{};                              ///< sum over the lights
-    [[no_unique_address]] cone_type cone{};            ///< holds the lights' axes
-    [[no_unique_address]] envelope_type envelope{};    ///< dominates the lights' emission and falloff
+    spectrum intensity{};                            ///< sum over the lights
+    [[no_unique_address]] cone_type cone{};          ///< holds the lights' axes
+    [[no_unique_address]] envelope_type envelope{};  ///< dominates the lights' emission and falloff
 };
 
 template <Light L>

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -33,11 +34,33 @@ struct BinnedBuilder {
     }
 };
 
+/// Says what a type lacks to be a light.
+template <class L>
+class LightTree {
+    static_assert(detail::HasIntensity<L>,
+                  "a light needs intensity(): a float, a glm::vec3 or another Spectrum; a member, or a function of "
+                  "light_traits");
+    static_assert(!detail::HasIntensity<L> || Light<L>,
+                  "a light needs position(), or direction() if it is infinitely far: three coordinates; a member, or a "
+                  "function of light_traits");
+
+public:
+    template <class... Arguments>
+    explicit LightTree(const Arguments&...) {}
+};
+
 /// A cluster tree over lights of one kind. Refers to the lights, which must outlive it, and never copies them.
 /// Lights of zero intensity are left out.
 /// memory: for float RGB and one representative 88 bytes an omni light, 120 an oriented one.
 template <Light L>
-class LightTree {
+class LightTree<L> {
+    static_assert(
+        OrientedLight<L> || !requires(const L& l) { detail::emission_of(l, 0.0f); },
+        "a light with emission(cos) needs axis(), from which the angle is measured");
+    static_assert(
+        !LightCluster<L>::enveloped || requires(const typename LightCluster<L>::envelope_type& e) { merge(e, e); },
+        "what a light's envelope() returns needs merge(a, b), which is nowhere below either");
+
 public:
     using light_type = L;
     using spectrum = spectrum_of<L>;
@@ -54,16 +77,15 @@ public:
                        const E& execute = {})
         : lights_(lights), options_(options) {
         if (options.representatives < 1 || options.representatives > 32) {
-            throw invalid_input("representatives: " + std::to_string(options.representatives) +
-                                " is not in 1 to 32");
+            throw invalid_input("representatives: " + std::to_string(options.representatives) + " is not in 1 to 32");
         }
         build_topology(builder, execute);
         refit();
     }
 
     template <class Builder = BinnedBuilder, Executor E = Sequential>
-    explicit LightTree(const std::vector<L>& lights, const LightTreeOptions& options = {},
-                       const Builder& builder = {}, const E& execute = {})
+    explicit LightTree(const std::vector<L>& lights, const LightTreeOptions& options = {}, const Builder& builder = {},
+                       const E& execute = {})
         : LightTree(std::span<const L>(lights), options, builder, execute) {}
 
     /// The tree would refer to lights that are gone.
@@ -90,8 +112,8 @@ public:
                 const node_index a = tree_.left(n), b = tree_.right(n);
                 clusters_[n] = merge_extents(clusters_[a], clusters_[b]);
                 for (std::size_t c = 0; c < sum.size(); ++c) sum[c] = sums[a][c] + sums[b][c];
-                clusters_[n].intensity =
-                    finite(make_spectrum<spectrum>([&](int c) { return sum[static_cast<std::size_t>(c)]; }));
+                clusters_[n].intensity = make_spectrum<spectrum>(
+                    [&](int c) { return sum[static_cast<std::size_t>(c)]; });
             }
             for (const double s : sum) weights[n] += s;
         }
@@ -126,9 +148,11 @@ private:
             if (!(value - value == 0.0f)) reject(index, "intensity is infinite");
         }
         Item item;
+        if constexpr (DirectionalLight<L>) {
+            check_unit(to_vec3(detail::direction_of(light)), index, "direction is not of unit length");
+        }
         item.position = place_of(light);
-        if (!is_finite(item.position)) reject(index, "position or direction is not finite");
-        if constexpr (DirectionalLight<L>) check_unit(item.position, index, "direction is not of unit length");
+        if (!is_finite(item.position)) reject(index, "position is not finite");
         if constexpr (cluster::oriented) {
             item.axis = to_vec3(detail::axis_of(light));
             check_unit(item.axis, index, "axis is not of unit length");
@@ -180,9 +204,14 @@ private:
     Representatives representatives_;
 };
 
-template <Light L, class... Rest>
-LightTree(const std::vector<L>&, Rest&&...) -> LightTree<L>;
-template <class L, std::size_t Extent, class... Rest>
-LightTree(std::span<L, Extent>, Rest&&...) -> LightTree<std::remove_const_t<L>>;
+template <class L>
+LightTree(const std::vector<L>&, const LightTreeOptions& = {}) -> LightTree<L>;
+template <class L, class Builder, class... Rest>
+LightTree(const std::vector<L>&, const LightTreeOptions&, const Builder&, const Rest&...) -> LightTree<L>;
+template <class L, std::size_t Extent>
+LightTree(std::span<L, Extent>, const LightTreeOptions& = {}) -> LightTree<std::remove_const_t<L>>;
+template <class L, std::size_t Extent, class Builder, class... Rest>
+LightTree(std::span<L, Extent>, const LightTreeOptions&, const Builder&, const Rest&...)
+    -> LightTree<std::remove_const_t<L>>;
 
 }  // namespace lightcuts

@@ -66,8 +66,7 @@ private:
         }
     }
 
-    void choose_several(const ClusterTree& tree, std::span<const double> weights, unsigned limit,
-                        std::uint64_t seed) {
+    void choose_several(const ClusterTree& tree, std::span<const double> weights, unsigned limit, std::uint64_t seed) {
         begin_.reserve(tree.size() + 1);
         begin_.push_back(0);
         for (node_index n = 0; n < tree.size(); ++n) {

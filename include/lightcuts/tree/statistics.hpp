@@ -9,8 +9,8 @@
 #include "../core/box.hpp"
 #include "../core/cone.hpp"
 #include "cluster_tree.hpp"
+#include "frame.hpp"
 #include "item.hpp"
-#include "record.hpp"
 #include "summary.hpp"
 
 namespace lightcuts {

@@ -54,7 +54,8 @@ void validate(const ClusterTree& tree, const std::vector<T>& summaries, Agrees&&
     }
     for (ClusterTree::node_index n = 0; n < tree.size(); ++n) {
         if (!tree.is_leaf(n) && !agrees(summaries[n], summaries[tree.left(n)], summaries[tree.right(n)])) {
-            throw invalid_input("cluster tree, node " + std::to_string(n) + ": its summary disagrees with its children");
+            throw invalid_input("cluster tree, node " + std::to_string(n) +
+                                ": its summary disagrees with its children");
         }
     }
 }

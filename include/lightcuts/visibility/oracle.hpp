@@ -17,10 +17,9 @@ concept ScalarOracle = requires(const O& visible, const R& receiver, const L& li
 /// Answers many shadow rays at once: `answers[i]` is the fraction in [0, 1] of `queries[i]`. Queries of one call may
 /// come from several receivers; their order is the same in every run.
 template <class O>
-concept BatchedOracle =
-    requires(const O& visible, std::span<const VisibilityQuery> queries, std::span<float> answers) {
-        visible.many(queries, answers);
-    };
+concept BatchedOracle = requires(const O& visible, std::span<const VisibilityQuery> queries, std::span<float> answers) {
+    visible.many(queries, answers);
+};
 
 /// What every algorithm asks of visibility: one of the two forms above. Where both exist, `many` is used.
 template <class O, class R, class L>

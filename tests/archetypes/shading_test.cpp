@@ -1,0 +1,124 @@
+#include <array>
+#include <functional>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <lightcuts/estimate/exhaustive.hpp>
+#include <lightcuts/estimate/power.hpp>
+#include <lightcuts/estimate/ward.hpp>
+#include "archetypes/archetypes.hpp"
+
+namespace lightcuts::test {
+namespace {
+
+Bands bands(float k) { return Bands(std::array<float, 5>{k, 2 * k, 3 * k, 4 * k, 5 * k}); }
+
+struct Scene {
+    std::array<LeastLight, 4> bulbs{LeastLight{{0, 0, 2}, bands(1)}, LeastLight{{1, 0, 2}, bands(2)},
+                                    LeastLight{{0, 1, 3}, bands(0)}, LeastLight{{4, 1, -3}, bands(3)}};
+    std::array<ForeignLight, 3> lamps{ForeignLight{{0, 0, 2}, {0, 0, -1}, bands(1)},
+                                      ForeignLight{{1, 1, 2}, {0, 0, -1}, bands(2)},
+                                      ForeignLight{{2, 1, 2}, {1, 0, 0}, bands(2)}};
+    std::array<LeastSun, 2> suns{LeastSun{{0, 0, -1}, bands(1)}, LeastSun{{0, -0.6f, -0.8f}, bands(1)}};
+};
+
+template <class Forest>
+void expect_shading(const Forest& forest) {
+    const LeastMaterial material;
+    const Receiver<const LeastMaterial&> receiver(glm::vec3(0.0f), material);
+    const LeastOracle scalar;
+    const LeastBatchedOracle batched;
+    EstimateScratch<Bands> scratch;
+    const Bands exact = exhaustive(forest, receiver, scalar, scratch).radiance;
+    ASSERT_GT(exact[0], 0.0f);
+    const auto expect_exact = [&](const Bands& radiance) {
+        for (int c = 0; c < 5; ++c) EXPECT_NEAR(radiance[c], exact[c], 1e-5f * exact[c]);
+    };
+    expect_exact(exhaustive(forest, receiver, batched, scratch).radiance);
+    expect_exact(ward(forest, receiver, scalar, 0.0f, scratch).radiance);
+    expect_exact(ward(forest, receiver, batched, 0.0f, scratch).radiance);
+    const PowerDistribution distribution(forest);
+    EXPECT_GT(power_sampling(forest, distribution, receiver, scalar, 64, 1, scratch).radiance[0], 0.0f);
+    EXPECT_GT(power_sampling(forest, distribution, receiver, batched, 64, 1, scratch).radiance[0], 0.0f);
+
+    const LightcutOptions all{.error_ratio = 0.0f, .max_cut = 0};
+    expect_exact(shade(forest, receiver, AlwaysVisible{}, all).radiance);
+    expect_exact(shade(forest, receiver, scalar, all).radiance);
+    expect_exact(shade(forest, receiver, batched, all).radiance);
+    expect_exact(shade(forest, receiver, scalar, all, SeparateBounds{}).radiance);
+    expect_exact(shade(forest, receiver, scalar, all, LeastPolicy{}).radiance);
+
+    const std::array<Receiver<const LeastMaterial&>, 2> receivers{receiver, receiver};
+    std::array<CutResult<Bands>, 2> results;
+    LightcutScratch<Bands> cut_scratch;
+    shade(forest, std::span<const Receiver<const LeastMaterial&>>(receivers), batched,
+          std::span<CutResult<Bands>>(results), cut_scratch, all);
+    expect_exact(results[1].radiance);
+    shade(forest, std::span<const Receiver<const LeastMaterial&>>(receivers), scalar,
+          std::span<CutResult<Bands>>(results), cut_scratch, all);
+    expect_exact(results[0].radiance);
+
+    Lightcut cut(forest, receiver, scalar, all);
+    while (cut.step()) {}
+    expect_exact(cut.result().radiance);
+}
+
+TEST(Archetype, OfALightIsShadedByEveryAlgorithm) {
+    const Scene scene;
+    const LightTree bulbs{std::span(scene.bulbs)};
+    expect_shading(LightForest(bulbs));
+}
+
+TEST(Archetype, OfAForeignLightIsShadedByEveryAlgorithm) {
+    const Scene scene;
+    const LightTree lamps{std::span(scene.lamps)};
+    expect_shading(LightForest(lamps));
+}
+
+TEST(Archetype, OfADirectionalLightIsShadedByEveryAlgorithm) {
+    const Scene scene;
+    const LightTree suns{std::span(scene.suns)};
+    expect_shading(LightForest(suns));
+}
+
+TEST(Archetype, OfEachKindMayBeRefinedTogether) {
+    const Scene scene;
+    LightTree bulbs(std::span(scene.bulbs), {.representatives = 4});
+    const LightTree lamps{std::span(scene.lamps)};
+    const LightTree suns{std::span(scene.suns)};
+    bulbs.refit();
+    expect_shading(LightForest(bulbs, lamps, suns));
+}
+
+TEST(Archetype, OfABuilderAndAnExecutorMakeATree) {
+    const Scene scene;
+    std::size_t tasks = 0;
+    const auto executor = [&tasks](std::size_t count, auto&& task) {
+        for (std::size_t i = count; i-- > 0;) task(i), ++tasks;
+    };
+    const LightTree by_executor(std::span(scene.bulbs), {}, BinnedBuilder{}, executor);
+    EXPECT_EQ(by_executor.topology(), LightTree(std::span(scene.bulbs)).topology());
+    EXPECT_GT(tasks, 0u);
+
+    // A builder is any function of items and executor: here one that makes a chain.
+    const auto chain = [](const auto& items, const auto&) {
+        std::vector<std::uint32_t> words;
+        for (std::uint32_t i = 0; i < items.size(); ++i) {
+            words.push_back(ClusterTree::leaf_word(i));
+            if (i > 0) words.push_back(0);
+        }
+        return ClusterTree(words);
+    };
+    const LightTree chained(std::span(scene.bulbs), {}, chain);
+    expect_shading(LightForest(chained));
+}
+
+// Executors that are not lambdas.
+static_assert(Executor<Sequential>);
+static_assert(Executor<std::function<void(std::size_t, std::function<void(std::size_t)>)>>);
+
+}  // namespace
+}  // namespace lightcuts::test

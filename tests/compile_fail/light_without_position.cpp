@@ -1,0 +1,14 @@
+// expect: a light needs position(), or direction() if it is infinitely far: three coordinates; a member, or a
+#include <vector>
+
+#include <lightcuts/lightcuts.hpp>
+
+struct Bulb {
+    glm::vec3 where{0.0f};
+    float intensity = 1.0f;
+};
+
+int main() {
+    const std::vector<Bulb> bulbs(3);
+    const lightcuts::LightTree tree(bulbs);
+}

@@ -1,0 +1,17 @@
+#include <vector>
+
+#include <lightcuts/lightcuts.hpp>
+
+struct Walls {
+    template <class R, class L>
+    bool operator()(const R&, const L&) const {
+        return true;
+    }
+};
+
+int main() {
+    const std::vector<lightcuts::OmniLight<float>> lights(3);
+    const lightcuts::LightTree tree(lights);
+    const lightcuts::Receiver receiver(glm::vec3(1.0f), lightcuts::Lambert<float>{{0.0f, 0.0f, 1.0f}, 0.5f});
+    lightcuts::shade(tree, receiver, Walls{});
+}

@@ -1,0 +1,8 @@
+// expect: deleted
+#include <vector>
+
+#include <lightcuts/lightcuts.hpp>
+
+std::vector<lightcuts::OmniLight<>> lights() { return std::vector<lightcuts::OmniLight<>>(3); }
+
+int main() { const lightcuts::LightTree tree(lights()); }

@@ -1,0 +1,218 @@
+#include <lightcuts/tree/agglomerate.hpp>
+
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <lightcuts/core/box.hpp>
+#include <lightcuts/core/cone.hpp>
+#include <lightcuts/tree/statistics.hpp>
+#include <lightcuts/tree/validate.hpp>
+
+#include "tree/item_sets.hpp"
+
+namespace {
+
+using namespace lightcuts;
+using namespace lightcuts::test;
+using detail::Cluster;
+using detail::Rank;
+
+template <bool Oriented, class Item>
+std::vector<Cluster<Oriented>> clusters_of(const std::vector<Item>& items) {
+    const auto frame = detail::Frame::of(std::span<const Item>(items));
+    std::vector<Cluster<Oriented>> clusters;
+    for (const Item& item : items) {
+        clusters.push_back(detail::cluster_of<Oriented>(item, static_cast<std::uint32_t>(clusters.size()), frame));
+    }
+    return clusters;
+}
+
+/// The greedy method as the papers state it: in each step look at all pairs and merge the best.
+template <bool Oriented, class Item>
+ClusterTree brute_force(const std::vector<Item>& items, double direction) {
+    std::vector<Cluster<Oriented>> clusters = clusters_of<Oriented>(items);
+    const std::size_t count = clusters.size();
+    std::vector<std::uint32_t> nodes(count);
+    for (std::size_t i = 0; i < count; ++i) nodes[i] = static_cast<std::uint32_t>(i);
+    std::vector<Rank> ranks(count * count);
+    for (std::size_t a = 0; a < count; ++a) {
+        for (std::size_t b = 0; b < a; ++b) ranks[a * count + b] = detail::rank(clusters[a], clusters[b], direction);
+    }
+    detail::Merges merges(count);
+    std::vector<bool> alive(count, true);
+    for (std::size_t step = 1; step < count; ++step) {
+        std::pair<std::size_t, std::size_t> best{count, count};
+        for (std::size_t a = 0; a < count; ++a) {
+            if (!alive[a]) continue;
+            for (std::size_t b = 0; b < a; ++b) {
+                if (!alive[b]) continue;
+                if (best.first == count || ranks[a * count + b] < ranks[best.first * count + best.second])
+                    best = {a, b};
+            }
+        }
+        // Of a pair, the slot with the smaller index holds the smaller id.
+        const auto [gone, kept] = best;
+        nodes[kept] = merges.join(nodes[kept], nodes[gone]);
+        clusters[kept] = merge(clusters[kept], clusters[gone]);
+        alive[gone] = false;
+        for (std::size_t c = 0; c < count; ++c) {
+            if (!alive[c] || c == kept) continue;
+            ranks[std::max(c, kept) * count + std::min(c, kept)] = detail::rank(clusters[kept], clusters[c], direction);
+        }
+    }
+    return merges.tree();
+}
+
+TEST(Agglomerate, NoItemsMakeAnEmptyTree) {
+    EXPECT_TRUE(agglomerate(std::vector<PointItem>{}).empty());
+    EXPECT_TRUE(agglomerate(std::vector<OrientedItem>{}).empty());
+}
+
+TEST(Agglomerate, IsTheGreedyMethod) {
+    Random random(1);
+    for (int round = 0; round < 600; ++round) {
+        const ItemSet set = random_items(random, 1 + random.below(round % 20 == 0 ? 200 : 70));
+        const double direction = random.chance(0.3) ? random.decades(-2, 2) : 1.0;
+        SCOPED_TRACE(set.name + "; direction " + std::to_string(direction));
+        const ClusterTree tree = agglomerate(set.items, ClusterSize{direction});
+        ASSERT_NO_THROW(validate(tree));
+        ASSERT_EQ(tree, (brute_force<true>(set.items, direction)));
+        const std::vector<PointItem> points = without_axes(set.items);
+        const ClusterTree point_tree = agglomerate(points);
+        ASSERT_EQ(point_tree, (brute_force<false>(points, 0)));
+        ASSERT_EQ(point_tree, agglomerate(set.items, ClusterSize{0}));
+    }
+}
+
+TEST(Agglomerate, IsTheGreedyMethodForLargerSets) {
+    Random random(2);
+    for (const double jitter : {0.0, 0.1, 1.0}) {
+        const std::vector<OrientedItem> items = room_items(random, 500, jitter);
+        EXPECT_EQ(agglomerate(items), (brute_force<true>(items, 1.0)));
+    }
+}
+
+TEST(Agglomerate, DoesNotDependOnTheExecutor) {
+    Random random(3);
+    const std::vector<OrientedItem> items = room_items(random, 3000, 0.1);
+    const std::vector<PointItem> points = without_axes(items);
+    EXPECT_EQ(agglomerate(items), agglomerate(items, ClusterSize{}, TwoThreads{}));
+    EXPECT_EQ(agglomerate(items), agglomerate(items, ClusterSize{}, Backwards{}));
+    EXPECT_EQ(agglomerate(points), agglomerate(points, ClusterSize{}, TwoThreads{}));
+    for (int round = 0; round < 30; ++round) {
+        const ItemSet set = random_items(random, 300);
+        EXPECT_EQ(agglomerate(set.items), agglomerate(set.items, ClusterSize{}, TwoThreads{})) << set.name;
+    }
+}
+
+TEST(Agglomerate, CoincidentItemsMakeABalancedTree) {
+    for (const std::size_t count : {2, 3, 1000, 20000}) {
+        const std::vector<OrientedItem> items(count, {{1, 2, 3}, {0, 1, 0}, 2});
+        EXPECT_EQ(statistics(agglomerate(items), items).depth_max, static_cast<std::size_t>(std::bit_width(count - 1)));
+    }
+}
+
+TEST(Agglomerate, RefusesAnImpossibleDirection) {
+    const std::vector<OrientedItem> items{{{0, 0, 0}, {0, 0, 1}, 1}};
+    for (const double direction : {-1.0, std::nan(""), 1e300}) {
+        EXPECT_NE(refusal([&] { agglomerate(items, ClusterSize{direction}); }), "");
+    }
+}
+
+TEST(ClusterSize, IsThePapersMetric) {
+    Random random(4);
+    for (int round = 0; round < 200; ++round) {
+        const std::vector<OrientedItem> items = room_items(random, 8, 0.5);
+        const auto frame = detail::Frame::of(std::span<const OrientedItem>(items));
+        const auto clusters = clusters_of<true>(items);
+        const auto a = merge(clusters[0], merge(clusters[1], clusters[2])), b = merge(clusters[3], clusters[4]);
+        Box box;
+        Cone cone_a, cone_b;
+        double weight = 0;
+        for (std::size_t i = 0; i < 5; ++i) {
+            box = lightcuts::merge(box, box_of(items[i].position));
+            weight += static_cast<double>(items[i].weight) * frame.per_weight;
+        }
+        const double alpha2 = diagonal2(box) * frame.per_length * frame.per_length;
+        const double spread = one_minus_cos(lightcuts::merge(a.cone, b.cone));
+        const double c = random.between(0, 3);
+        const double expected = weight * (alpha2 + c * c * spread * spread);
+        EXPECT_NEAR(detail::union_size(a, b, c), expected, 3e-6 * expected);
+    }
+}
+
+/// What lets mutual nearest neighbours be merged at once.
+TEST(ClusterSize, IsStrictlyMonotone) {
+    Random random(5);
+    for (int round = 0; round < 3000; ++round) {
+        const ItemSet set = random_items(random, 12);
+        auto clusters = clusters_of<true>(set.items);
+        // Merge at random down to three clusters.
+        while (clusters.size() > 3) {
+            const std::size_t a = random.below(clusters.size() - 1);
+            clusters[a] = merge(clusters[a], clusters.back());
+            clusters.pop_back();
+        }
+        const auto& [a, b, c] = std::tie(clusters[0], clusters[1], clusters[2]);
+        const Rank together = detail::rank(a, merge(b, c), 1.0);
+        ASSERT_LT(detail::rank(a, b, 1.0), together) << set.name;
+        ASSERT_LT(detail::rank(a, c, 1.0), together) << set.name;
+        if (together.size > 0) { ASSERT_LT(detail::rank(a, b, 1.0).size, together.size) << set.name; }
+    }
+}
+
+TEST(ClusterSize, IsSymmetric) {
+    Random random(6);
+    for (int round = 0; round < 1000; ++round) {
+        const ItemSet set = random_items(random, 2);
+        const auto clusters = clusters_of<true>(set.items);
+        EXPECT_EQ(detail::rank(clusters[0], clusters[1], 1.0).size, detail::rank(clusters[1], clusters[0], 1.0).size);
+    }
+}
+
+/// The bounds of the neighbour tree, through whatever they exclude: also while clusters merge under stale nodes.
+TEST(NeighbourTree, FindsWhatALinearSearchFinds) {
+    Random random(7);
+    for (int round = 0; round < 150; ++round) {
+        const ItemSet set = random_items(random, 2 + random.below(300));
+        SCOPED_TRACE(set.name);
+        auto unsorted = clusters_of<true>(set.items);
+        std::vector<Cluster<true>> clusters;
+        for (const std::uint32_t s : detail::KdOrder<true>::of(unsorted, 1.0)) clusters.push_back(unsorted[s]);
+        detail::NeighbourTree<true> tree(clusters, 1.0, 1.0);
+        std::vector<std::uint32_t> alive(clusters.size());
+        for (std::size_t s = 0; s < alive.size(); ++s) alive[s] = static_cast<std::uint32_t>(s);
+        while (alive.size() > 1) {
+            const std::uint32_t slot = alive[random.below(alive.size())];
+            detail::Neighbour expected;
+            std::size_t index = 0;
+            for (std::size_t i = 0; i < alive.size(); ++i) {
+                if (alive[i] == slot) continue;
+                const Rank r = detail::rank(clusters[slot], clusters[alive[i]], 1.0);
+                if (r < expected.rank) {
+                    expected = {alive[i], r};
+                    index = i;
+                }
+            }
+            ASSERT_EQ(tree.nearest(slot, {}).slot, expected.slot);
+            // Merge it with its neighbour, or with any other cluster.
+            if (random.chance(0.3)) index = random.below(alive.size());
+            const std::uint32_t other = alive[index];
+            if (other == slot) continue;
+            clusters[slot] = merge(clusters[slot], clusters[other]);
+            tree.replace(slot);
+            tree.erase(other);
+            alive[index] = alive.back();
+            alive.pop_back();
+        }
+    }
+}
+
+}  // namespace

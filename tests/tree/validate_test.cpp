@@ -1,0 +1,61 @@
+#include <lightcuts/tree/validate.hpp>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <lightcuts/tree/summary.hpp>
+
+#include "tree/item_sets.hpp"
+
+namespace {
+
+using namespace lightcuts;
+using lightcuts::test::refusal;
+
+constexpr std::uint32_t leaf(std::uint32_t item) { return ClusterTree::leaf_word(item); }
+
+std::string message(const std::vector<std::uint32_t>& words) {
+    return refusal([&] { validate(ClusterTree(words)); });
+}
+
+TEST(Validate, AcceptsValidTrees) {
+    EXPECT_EQ(message({}), "");
+    EXPECT_EQ(message({leaf(0)}), "");
+    EXPECT_EQ(message({leaf(1), leaf(0), 0}), "");
+    EXPECT_EQ(message({leaf(0), leaf(3), 0, leaf(2), leaf(1), 3, 0}), "");
+    EXPECT_EQ(message({leaf(0), leaf(1), leaf(2), 1, 0}), "");
+}
+
+TEST(Validate, NamesTheFirstNodeThatIsWrong) {
+    EXPECT_EQ(message({leaf(0), leaf(1)}), "cluster tree: a binary tree has an odd number of nodes, not 2");
+    EXPECT_EQ(message({0}), "cluster tree, node 0: an inner node needs two complete subtrees before it");
+    EXPECT_EQ(message({leaf(0), 0, leaf(1)}),
+              "cluster tree, node 1: an inner node needs two complete subtrees before it");
+    EXPECT_EQ(message({leaf(0), leaf(2), 0}), "cluster tree, node 1: item 2 is out of range");
+    EXPECT_EQ(message({leaf(1), leaf(1), 0}), "cluster tree, node 1: item 1 occurs twice");
+    EXPECT_EQ(message({leaf(0), leaf(1), 1}), "cluster tree, node 2: its first leaf is node 0, not 1");
+    EXPECT_EQ(message({leaf(0), leaf(1), leaf(2), 0, 0}), "cluster tree, node 3: its first leaf is node 1, not 0");
+}
+
+TEST(Validate, AnUnfinishedTreeIsRefused) {
+    // Three leaves need two inner nodes; a leaf in the place of the root also repeats or exceeds the items.
+    EXPECT_NE(message({leaf(0), leaf(1), leaf(2)}), "");
+}
+
+TEST(Validate, ChecksSummaries) {
+    const ClusterTree tree({leaf(0), leaf(3), 0, leaf(2), leaf(1), 3, 0});
+    auto sums = summarize(
+        tree, [](std::uint32_t item) { return static_cast<int>(item) + 1; }, [](int a, int b) { return a + b; });
+    const auto agrees = [](int sum, int left, int right) { return sum == left + right; };
+    EXPECT_NO_THROW(validate(tree, sums, agrees));
+    sums[5] += 1;
+    EXPECT_EQ(refusal([&] { validate(tree, sums, agrees); }),
+              "cluster tree, node 5: its summary disagrees with its children");
+    sums.pop_back();
+    EXPECT_EQ(refusal([&] { validate(tree, sums, agrees); }), "cluster tree: 7 nodes, but 6 summaries");
+}
+
+}  // namespace
