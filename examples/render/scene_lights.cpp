@@ -25,13 +25,8 @@ lightcuts::LightTree<L> tree_with(const std::vector<L>& lights, const Options& o
 template <class L>
 lightcuts::LightTree<L> make_tree(const std::vector<L>& lights, const Options& options) {
     if (options.builder == "agglomerate") {
-        return tree_with(lights, options, [](auto items, const auto& execute) {
-            if constexpr (requires { lightcuts::agglomerate(items, lightcuts::ClusterSize{}, execute); }) {
-                return lightcuts::agglomerate(items, lightcuts::ClusterSize{}, execute);
-            } else {
-                return lightcuts::agglomerate(items, execute);
-            }
-        });
+        return tree_with(lights, options,
+                         [](auto items, const auto& execute) { return lightcuts::agglomerate(items, {}, execute); });
     }
     if (options.builder == "longest-axis") {
         return tree_with(lights, options, [](auto items, const auto& execute) {

@@ -1,5 +1,4 @@
-// expect: an oracle needs operator()(receiver, light) const, which returns a bool or a fraction, or many(queries,
-// answers)
+// expect: an oracle needs operator()(receiver, light) const, which returns a bool or a fraction, or
 #include <vector>
 
 #include <lightcuts/lightcuts.hpp>

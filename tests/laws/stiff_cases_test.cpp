@@ -335,6 +335,37 @@ TEST(StiffCase, MaterialsAtTheirLimits) {
     }
 }
 
+// The light opposite the viewer, and rounding puts both above the horizon: there is no half-vector.
+TEST(StiffCase, LightOppositeTheViewerOnTheHorizon) {
+    const V normal(0.53032732f, 0.847792983f, 6.43957419e-19f), view(0.847792983f, -0.53032732f, -8.92692995e-08f);
+    const V x(9.0257283e-13f, 0.0f, 0.0f);
+    const std::vector<OmniLight<>> lights{{{-1.78965539e-13f, 6.76544161e-13f, 1.13881781e-19f}, V(1.0f), {}}};
+    const V to_light = incidence(lights[0], x).to_light;
+    for (const V& value : {Ggx<V>(normal, view, V(0.5f), 0.1f).evaluate(to_light),
+                           Ward<V>(normal, view, V(0.5f), 0.1f).evaluate(to_light)}) {
+        EXPECT_TRUE(is_finite_colour(value));
+    }
+    expect_sound(lights, Receiver<Ggx<V>>(x, Ggx<V>(normal, view, V(0.5f), 0.1f)));
+    expect_sound(lights, Receiver<Ward<V>>(x, Ward<V>(normal, view, V(0.5f), 0.1f)));
+}
+
+// An exponent of zero is as bright just in front of the mirror direction's plane as anywhere, and black behind it: the
+// bound and evaluate() have to agree on which side rounding leaves a light in that plane.
+TEST(StiffCase, ExponentZeroInThePlaneOfTheViewer) {
+    Random random(9);
+    for (int trial = 0; trial < 100000; ++trial) {
+        // The mirror direction is -z but for rounding, and the light's direction has no z at all.
+        const double t = random.decades(-8.0, -5.0), phi = random.between(-1.5, 1.5);
+        const V normal(glm::normalize(glm::dvec3(1.0, 0.0, -t))), view(glm::normalize(glm::dvec3(2.0 * t, 0.0, 1.0)));
+        const DistantLight<> light{V(glm::dvec3(-std::cos(phi), -std::sin(phi), 0.0)), V(1.0f)};
+        const ModifiedPhong<V> material{normal, view, V(1.0f), 0.0f};
+        const LightCluster<DistantLight<>> cluster = cluster_of(light);
+        const float value = material.evaluate(place_of(light)).x;
+        ASSERT_LE(value, TwoStageBounds{}.quick(material, cluster, V(0.0f)).x) << trial;
+        ASSERT_LE(value, TwoStageBounds{}.tight(material, cluster, V(0.0f)).x) << trial;
+    }
+}
+
 TEST(StiffCase, NanAndInfinityNeverComeOutOfRandomTrouble) {
     Random random(8);
     for (int trial = 0; trial < 300; ++trial) {

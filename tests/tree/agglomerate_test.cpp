@@ -113,7 +113,7 @@ TEST(Agglomerate, DoesNotDependOnTheExecutor) {
 }
 
 TEST(Agglomerate, CoincidentItemsMakeABalancedTree) {
-    for (const std::size_t count : {2, 3, 1000, 20000}) {
+    for (const std::size_t count : {2u, 3u, 1000u, 20000u}) {
         const std::vector<OrientedItem> items(count, {{1, 2, 3}, {0, 1, 0}, 2});
         EXPECT_EQ(statistics(agglomerate(items), items).depth_max, static_cast<std::size_t>(std::bit_width(count - 1)));
     }
@@ -134,7 +134,6 @@ TEST(ClusterSize, IsThePapersMetric) {
         const auto clusters = clusters_of<true>(items);
         const auto a = merge(clusters[0], merge(clusters[1], clusters[2])), b = merge(clusters[3], clusters[4]);
         Box box;
-        Cone cone_a, cone_b;
         double weight = 0;
         for (std::size_t i = 0; i < 5; ++i) {
             box = lightcuts::merge(box, box_of(items[i].position));

@@ -27,7 +27,8 @@ struct ItemSet {
 inline ItemSet random_items(Random& random, std::size_t count) {
     static constexpr std::array positions{"volume", "grid", "line", "plane", "point", "far and uneven", "sphere"};
     static constexpr std::array weights{"equal", "similar", "over 60 decades", "tiny or huge"};
-    static constexpr std::array axes{"any", "equal", "along x, y, z", "jittered", "few", "almost equal", "as position"};
+    static constexpr std::array axes{"any", "equal",        "along x, y, z", "jittered",
+                                     "few", "almost equal", "as position",   "hardly jittered"};
     const std::size_t position = random.below(positions.size());
     const std::size_t weight = random.below(weights.size());
     const std::size_t axis = random.below(axes.size());
@@ -60,7 +61,8 @@ inline ItemSet random_items(Random& random, std::size_t count) {
             case 3: item.axis = glm::vec3(random.near({0, 1, 0}, 0.1)); break;
             case 4: item.axis = glm::normalize(glm::vec3(step(3) - 1, step(3) - 1, step(2) - 0.5f)); break;
             case 5: item.axis = {0, 0, random.chance(0.5) ? 1.0f : 0.9999999f}; break;
-            default: item.axis = direction; break;
+            case 6: item.axis = direction; break;
+            default: item.axis = glm::vec3(random.near({0.6, 0, 0.8}, 1e-3)); break;
         }
         set.items.push_back(item);
     }

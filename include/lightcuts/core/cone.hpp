@@ -99,8 +99,7 @@ inline double needed_sin2_half(const glm::dvec3& axis, const glm::dvec3& other, 
     const HalfAngle sum = half_between(axis, other) + half;
     if (sum.cos <= slack) return 1.0;
     const double s = sum.sin + slack;
-    // A float's roundoff more than needed: g++ 12 drops the outward rounding of two of these when it vectorises them.
-    return s * s * (1.0 + 0x1p-23);
+    return s * s * (1.0 + slack);
 }
 
 /// A unit vector perpendicular to the unit vector `a`.
@@ -142,7 +141,9 @@ inline Cone merge(const Cone& a, const Cone& b) {
     const double length = glm::length(side);
     side = length > 1e-14 ? side / length : perpendicular(u);
     const HalfAngle turn = between - surplus;
-    const glm::vec3 axis(glm::normalize(u * turn.cos + side * turn.sin));
+    // The sum with zero keeps g++ 12 from leaving out the rounding to float when it vectorises what follows: the cone
+    // would be measured about an axis that is not the stored one.
+    const glm::vec3 axis = glm::vec3(glm::normalize(u * turn.cos + side * turn.sin)) + 0.0f;
 
     // Measure again about the axis as stored.
     const glm::dvec3 w = glm::normalize(glm::dvec3(axis));

@@ -137,10 +137,8 @@ private:
     std::vector<float> answers_;
 };
 
-template <TreeOrForest Lights, class R, class Oracle, class... Rest>
-Lightcut(const Lights&, const R&, const Oracle&, const Rest&...) -> Lightcut<forest_of<Lights>, R, Oracle>;
-template <TreeOrForest Lights, class R, class Oracle, class Policy>
-Lightcut(const Lights&, const R&, const Oracle&, const LightcutOptions&, const Policy&)
+template <TreeOrForest Lights, class R, class Oracle, class Policy = TwoStageBounds>
+Lightcut(const Lights&, const R&, const Oracle&, const LightcutOptions& = {}, const Policy& = {})
     -> Lightcut<forest_of<Lights>, R, Oracle, Policy>;
 
 namespace detail {

@@ -70,6 +70,7 @@ public:
         const glm::dvec3 h = o + view_ * length;
         const glm::dvec3 across = glm::cross(normal_, h);
         const double h2 = dot(h, h);
+        if (!(h2 > 0.0)) return {0.0, 1.0, 0.0};  // o = -i on the horizon
         return {cosine, dot(across, across) / h2, 0.5 * std::sqrt(h2) * (2.0 - length)};
     }
 

@@ -32,7 +32,7 @@ public:
     S evaluate(const glm::vec3& to_light) const {
         const glm::dvec3 o(to_light);
         const double cosine = detail::dot(normal_, o);
-        if (!(cosine > 0.0)) return S{};
+        if (!(cosine > 0.0 && detail::dot(mirror_, o) > 0.0)) return S{};
         // 1 - cos of the angle to the mirror direction, free of cancellation and of the error in the length of o.
         const double o2 = detail::dot(o, o);
         const glm::dvec3 chord = o - mirror_ * (0.5 + 0.5 * o2);

@@ -130,9 +130,12 @@ private:
             std::uint32_t a = s;
             find_neighbour(tree, a);
             std::uint32_t b = links_[a].slot;
-            for (find_neighbour(tree, b); links_[b].slot != a; find_neighbour(tree, b)) {
+            find_neighbour(tree, b);
+            for (std::uint32_t steps = 0; links_[b].slot != a; ++steps) {
+                LIGHTCUTS_ASSERT(steps < left);
                 a = b;
                 b = links_[a].slot;
+                find_neighbour(tree, b);
             }
             join(a, b);
             tree.replace(a);

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <limits>
 #include <span>
+#include <utility>
 
 #include "../core/random.hpp"
 #include "longest_axis.hpp"
@@ -37,7 +38,8 @@ public:
         bin_count_ = count >= 64 ? max_bins : count >= 16 ? max_bins / 2 : max_bins / 4;
         // An axis that promises little beside another is not worth its bins, least of all for a small set.
         const auto gains = bounds.gains();
-        const float least_gain = *std::max_element(gains.begin(), gains.end()) * (count >= 256 ? 0.05f : 0.25f);
+        const float share = count >= 256 ? 0.05f : count >= 16 ? 0.25f : 0.5f;
+        const float least_gain = share * *std::max_element(gains.begin(), gains.end());
         for (std::size_t i = 0; i < axis_count; ++i) {
             const std::size_t a = Record::axes[i];
             const float extent = bounds.hi[a] - bounds.lo[a];
@@ -149,6 +151,26 @@ void visit_sample(std::span<const Record> records, std::size_t size, Visit&& vis
     }
 }
 
+/// Moves the record to the end without which the other two are the smallest cluster. pre: three records.
+template <class Record>
+void single_out(std::span<Record> records) {
+    std::size_t odd = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Record &a = records[(i + 1) % 3], &b = records[(i + 2) % 3];
+        Bounds<Record> pair = Bounds<Record>::none();
+        pair.add(a);
+        pair.add(b);
+        const double size = (static_cast<double>(a.weight()) + static_cast<double>(b.weight())) *
+                            static_cast<double>(pair.size());
+        if (size < least) {
+            least = size;
+            odd = i;
+        }
+    }
+    std::swap(records[odd], records[2]);
+}
+
 }  // namespace detail
 
 template <class Record>
@@ -158,6 +180,10 @@ detail::Halves<Record> Binned::split(const detail::Part<Record>& part) const {
     const auto halves = [records](std::size_t left, const Bounds& left_bounds, const Bounds& right_bounds) {
         return detail::Halves<Record>{{records.first(left), left_bounds}, {records.subspan(left), right_bounds}};
     };
+    if (records.size() == 3) {
+        detail::single_out(records);
+        return halves(2, Bounds::none(), Bounds::none());
+    }
     const bool sampled = sample > 0 && records.size() > 2 * sample;
     const auto visit = [&](auto&& visitor) {
         if (sampled) {
