@@ -28,6 +28,7 @@ template <bool Oriented, class Item>
 std::vector<Cluster<Oriented>> clusters_of(const std::vector<Item>& items) {
     const auto frame = detail::Frame::of(std::span<const Item>(items));
     std::vector<Cluster<Oriented>> clusters;
+    clusters.reserve(items.size());
     for (const Item& item : items) {
         clusters.push_back(detail::cluster_of<Oriented>(item, static_cast<std::uint32_t>(clusters.size()), frame));
     }

@@ -176,7 +176,7 @@ TEST(Divide, RefusesBadItemsByIndex) {
     const OrientedItem good{{0, 0, 0}, {0, 0, 1}, 1};
     const auto message = [&](const OrientedItem& bad) {
         const std::vector<OrientedItem> items{good, good, bad, good};
-        const std::string divided = refusal([&] { divide(items); });
+        std::string divided = refusal([&] { divide(items); });
         EXPECT_EQ(divided, refusal([&] { agglomerate(items); }));
         return divided;
     };
