@@ -1,5 +1,6 @@
-/// Seconds, sorts and memory of the tree builders against the number of lights. Prints a table and writes
-/// tree_build.json. A sort is the time of std::sort of as many random 64-bit keys, measured in the same run.
+/// Seconds, sorts and memory of the tree builders against the number of lights, and the size of the cuts that their
+/// trees lead to. Prints a table and writes tree_build.json. A sort is the time of std::sort of as many random 64-bit
+/// keys, measured in the same run.
 
 #include <algorithm>
 #include <atomic>
@@ -22,8 +23,14 @@
 
 #include <CLI/CLI.hpp>
 #include <glm/geometric.hpp>
+#include <lightcuts/cut/lightcut.hpp>
+#include <lightcuts/light/directional.hpp>
+#include <lightcuts/light/omni.hpp>
+#include <lightcuts/light/oriented.hpp>
+#include <lightcuts/material/lambert.hpp>
 #include <lightcuts/tree/agglomerate.hpp>
 #include <lightcuts/tree/divide.hpp>
+#include <lightcuts/tree/light_tree.hpp>
 #include <lightcuts/tree/statistics.hpp>
 #include <nlohmann/json.hpp>
 
@@ -108,6 +115,21 @@ private:
     std::uniform_real_distribution<float> distribution_;
 };
 
+using Receiver = lightcuts::Receiver<lightcuts::Lambert<float>>;
+using Receivers = std::vector<Receiver>;
+
+/// Diffuse receivers in the space that the lights are in: `place(uniform)` says where, `normal(uniform)` how they face.
+template <class Place, class Normal>
+Receivers receivers(Place&& place, Normal&& normal) {
+    Uniform uniform;
+    Receivers made;
+    for (std::uint32_t id = 0; id < 200; ++id) {
+        const glm::vec3 p = place(uniform);
+        made.emplace_back(p, lightcuts::Lambert<float>{normal(uniform), 0.5f}, p, id);
+    }
+    return made;
+}
+
 /// 72 panels of 0.6 m in the ceiling of a hall, facing down.
 std::vector<OrientedItem> ceiling(std::size_t count) {
     Uniform uniform;
@@ -120,25 +142,43 @@ std::vector<OrientedItem> ceiling(std::size_t count) {
     return items;
 }
 
-/// Lights all over the walls of a room that is turned against the axes; `bumpiness` jitters their normals.
+/// In the hall, facing up.
+Receivers below_ceiling() {
+    return receivers([](Uniform& uniform) { return uniform.cube() * glm::vec3(18.2f, 5.0f, 10.6f); },
+                     [](Uniform& uniform) {
+                         const glm::vec3 normal = uniform.direction();
+                         return glm::vec3(normal.x, std::abs(normal.y), normal.z);
+                     });
+}
+
+/// A room that is turned against the axes.
+constexpr glm::vec3 room_size(20, 6, 12);
+
+glm::vec3 turn(const glm::vec3& v) {
+    const float c = std::cos(0.7f), s = std::sin(0.7f);
+    const glm::vec3 w(c * v.x - s * v.y, s * v.x + c * v.y, v.z);
+    return glm::vec3(w.x, c * w.y - s * w.z, s * w.y + c * w.z);
+}
+
+/// Lights all over the walls of the room; `bumpiness` jitters their normals.
 std::vector<OrientedItem> surfaces(std::size_t count, float bumpiness) {
     Uniform uniform;
-    const auto turn = [](const glm::vec3& v) {
-        const float c = std::cos(0.7f), s = std::sin(0.7f);
-        const glm::vec3 w(c * v.x - s * v.y, s * v.x + c * v.y, v.z);
-        return glm::vec3(w.x, c * w.y - s * w.z, s * w.y + c * w.z);
-    };
-    const glm::vec3 size(20, 6, 12);
     std::vector<OrientedItem> items;
     for (std::size_t i = 0; i < count; ++i) {
         const int wall = static_cast<int>(6 * uniform()), side = wall / 2;
-        glm::vec3 p = uniform.cube() * size, normal(0);
-        p[side] = wall % 2 == 0 ? 0.0f : size[side];
+        glm::vec3 p = uniform.cube() * room_size, normal(0);
+        p[side] = wall % 2 == 0 ? 0.0f : room_size[side];
         normal[side] = wall % 2 == 0 ? 1.0f : -1.0f;
         normal += bumpiness * uniform.direction();
         items.push_back({turn(p), turn(glm::normalize(normal)), 0.1f + uniform()});
     }
     return items;
+}
+
+/// In the room.
+Receivers between_surfaces() {
+    return receivers([](Uniform& uniform) { return turn(uniform.cube() * room_size); },
+                     [](Uniform& uniform) { return uniform.direction(); });
 }
 
 /// Lights without direction in a cube.
@@ -149,12 +189,38 @@ std::vector<PointItem> volume(std::size_t count) {
     return items;
 }
 
+/// In the cube.
+Receivers in_volume() {
+    return receivers([](Uniform& uniform) { return uniform.cube(); },
+                     [](Uniform& uniform) { return uniform.direction(); });
+}
+
 /// Lights at infinity, all around.
 std::vector<PointItem> directions(std::size_t count) {
     Uniform uniform;
     std::vector<PointItem> items;
     for (std::size_t i = 0; i < count; ++i) items.push_back({uniform.direction(), 0.1f + uniform()});
     return items;
+}
+
+lightcuts::OrientedPointLight<float> oriented_light(const OrientedItem& item) {
+    return {item.position, item.axis, item.weight, {}};
+}
+lightcuts::OmniLight<float> omni_light(const PointItem& item) { return {item.position, item.weight, {}}; }
+lightcuts::DistantLight<float> distant_light(const PointItem& item) { return {item.position, item.weight}; }
+
+/// Mean size of the cuts of `receivers` through `topology`, without shadows and without a limit.
+template <class Light>
+double mean_cut_size(const ClusterTree& topology, const std::vector<Light>& lights, const Receivers& receivers) {
+    const auto adopt = [&](const auto&, const auto&) { return topology; };
+    const lightcuts::LightTree tree(lights, {}, adopt);
+    lightcuts::LightcutOptions options;
+    options.max_cut = 0;
+    double sum = 0;
+    for (const Receiver& receiver : receivers) {
+        sum += lightcuts::shade(tree, receiver, lightcuts::AlwaysVisible{}, options).cut_size;
+    }
+    return sum / static_cast<double>(receivers.size());
 }
 
 struct Options {
@@ -175,33 +241,48 @@ double sort_seconds(std::size_t count, std::size_t runs) {
     return benchmark::median(times);
 }
 
+/// What the rows of one set of lights have in common.
+template <class Item>
+struct LightSet {
+    std::string name;
+    std::span<const Item> items;
+    double sort;                                         ///< seconds
+    std::function<double(const ClusterTree&)> cut_size;  ///< that a tree of the items leads to
+};
+
 class Table {
 public:
     explicit Table(Options options) : options_(std::move(options)) {
-        std::printf("%-13s %-22s %9s | %9s %7s | %8s %8s | %6s %10s\n", "lights", "builder", "number", "seconds",
-                    "sorts", "bytes a", "and while", "depth", "cost");
-        std::printf("%-13s %-22s %9s | %9s %7s | %8s %8s | %6s %10s\n", "", "", "", "", "", "light", "building", "mean",
-                    "a light");
+        std::printf("%-13s %-22s %9s | %9s %7s | %8s %8s | %6s %10s | %7s\n", "lights", "builder", "number", "seconds",
+                    "sorts", "bytes a", "and while", "depth", "cost", "cut");
+        std::printf("%-13s %-22s %9s | %9s %7s | %8s %8s | %6s %10s | %7s\n", "", "", "", "", "", "light", "building",
+                    "mean", "a light", "size");
     }
 
-    template <class Item>
-    void measure(const std::string& name, std::vector<Item> (*make)(std::size_t)) {
+    /// `make(count)`: the items. `light(item)`: a light of it. `receivers`: of which the cuts are.
+    template <class Item, class MakeLight>
+    void measure(const std::string& name, std::vector<Item> (*make)(std::size_t), MakeLight&& light,
+                 const Receivers& receivers) {
         for (std::size_t count = 1000; count <= std::max(options_.max_divide, options_.max_agglomerate); count *= 10) {
             const std::vector<Item> items = make(count);
             const std::span<const Item> span(items);
-            const double sort = sort_seconds(count, options_.runs);
+            const auto cut_size = [&](const ClusterTree& tree) {
+                std::vector<decltype(light(items[0]))> lights;
+                lights.reserve(items.size());
+                for (const Item& item : items) lights.push_back(light(item));
+                return mean_cut_size(tree, lights, receivers);
+            };
+            const LightSet<Item> set{name, span, sort_seconds(count, options_.runs), cut_size};
             if (count <= options_.max_divide) {
-                row(name, "binned", span, sort, [&] { return lightcuts::divide(span); });
-                row(name, "binned, all items", span, sort,
-                    [&] { return lightcuts::divide(span, lightcuts::Binned{0}); });
-                row(name, "longest axis", span, sort,
-                    [&] { return lightcuts::divide(span, lightcuts::LongestAxis{}); });
-                threaded_row(name, "binned, threads", span, sort,
+                row(set, "binned", [&] { return lightcuts::divide(span); });
+                row(set, "binned, all items", [&] { return lightcuts::divide(span, lightcuts::Binned{0}); });
+                row(set, "longest axis", [&] { return lightcuts::divide(span, lightcuts::LongestAxis{}); });
+                threaded_row(set, "binned, threads",
                              [&] { return lightcuts::divide(span, lightcuts::Binned{}, Threads{}); });
             }
             if (count <= options_.max_agglomerate) {
-                row(name, "agglomerate", span, sort, [&] { return lightcuts::agglomerate(span); });
-                threaded_row(name, "agglomerate, threads", span, sort,
+                row(set, "agglomerate", [&] { return lightcuts::agglomerate(span); });
+                threaded_row(set, "agglomerate, threads",
                              [&] { return lightcuts::agglomerate(span, lightcuts::ClusterSize{}, Threads{}); });
             }
         }
@@ -211,16 +292,14 @@ public:
 
 private:
     template <class Item, class Build>
-    void row(const std::string& lights, const std::string& builder, std::span<const Item> items, double sort,
-             Build&& build) {
-        add(lights, builder, items, sort, build, [](auto&& f) { return benchmark::seconds(f); });
+    void row(const LightSet<Item>& set, const std::string& builder, Build&& build) {
+        add(set, builder, build, [](auto&& f) { return benchmark::seconds(f); });
     }
 
     /// By the clock on the wall: means something on an idle machine only.
     template <class Item, class Build>
-    void threaded_row(const std::string& lights, const std::string& builder, std::span<const Item> items, double sort,
-                      Build&& build) {
-        add(lights, builder, items, sort, build, [](auto&& f) {
+    void threaded_row(const LightSet<Item>& set, const std::string& builder, Build&& build) {
+        add(set, builder, build, [](auto&& f) {
             const auto start = std::chrono::steady_clock::now();
             f();
             return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -228,9 +307,8 @@ private:
     }
 
     template <class Item, class Build, class Clock>
-    void add(const std::string& lights, const std::string& builder, std::span<const Item> items, double sort,
-             Build&& build, Clock&& clock) {
-        if ((lights + " " + builder).find(options_.only) == std::string::npos) return;
+    void add(const LightSet<Item>& set, const std::string& builder, Build&& build, Clock&& clock) {
+        if ((set.name + " " + builder).find(options_.only) == std::string::npos) return;
         ClusterTree tree;
         std::vector<double> times;
         std::size_t most = 0;
@@ -242,24 +320,26 @@ private:
             most = most_allocated - before;
         }
         const double seconds = benchmark::median(times);
-        const auto count = static_cast<double>(items.size());
+        const auto count = static_cast<double>(set.items.size());
         const double final_bytes = static_cast<double>(sizeof(std::uint32_t) * tree.size()) / count;
         const double peak_bytes = static_cast<double>(most) / count;
-        const lightcuts::TreeStatistics statistics = lightcuts::statistics(tree, items);
-        std::printf("%-13s %-22s %9zu | %9.4f %7.2f | %8.1f %8.1f | %6.1f %10.4g\n", lights.c_str(), builder.c_str(),
-                    items.size(), seconds, seconds / sort, final_bytes, peak_bytes, statistics.depth_mean,
-                    statistics.cost / count);
+        const lightcuts::TreeStatistics statistics = lightcuts::statistics(tree, set.items);
+        const double cut_size = set.cut_size(tree);
+        std::printf("%-13s %-22s %9zu | %9.4f %7.2f | %8.1f %8.1f | %6.1f %10.4g | %7.1f\n", set.name.c_str(),
+                    builder.c_str(), set.items.size(), seconds, seconds / set.sort, final_bytes, peak_bytes,
+                    statistics.depth_mean, statistics.cost / count, cut_size);
         std::fflush(stdout);
-        rows_.push_back({{"lights", lights},
+        rows_.push_back({{"lights", set.name},
                          {"builder", builder},
-                         {"count", items.size()},
+                         {"count", set.items.size()},
                          {"seconds", seconds},
-                         {"sorts", seconds / sort},
+                         {"sorts", seconds / set.sort},
                          {"bytes_per_light", final_bytes},
                          {"bytes_per_light_while_building", peak_bytes},
                          {"depth_max", statistics.depth_max},
                          {"depth_mean", statistics.depth_mean},
-                         {"cost_per_light", statistics.cost / count}});
+                         {"cost_per_light", statistics.cost / count},
+                         {"cut_size", cut_size}});
     }
 
     Options options_;
@@ -278,10 +358,12 @@ int main(int argc, char** argv) {
     CLI11_PARSE(app, argc, argv);
 
     Table table(options);
-    table.measure<OrientedItem>("ceiling", ceiling);
-    table.measure<OrientedItem>("surfaces", [](std::size_t n) { return surfaces(n, 0.0f); });
-    table.measure<OrientedItem>("bumpy", [](std::size_t n) { return surfaces(n, 0.2f); });
-    table.measure<PointItem>("volume", volume);
-    table.measure<PointItem>("directional", directions);
+    table.measure<OrientedItem>("ceiling", ceiling, oriented_light, below_ceiling());
+    table.measure<OrientedItem>(
+        "surfaces", [](std::size_t n) { return surfaces(n, 0.0f); }, oriented_light, between_surfaces());
+    table.measure<OrientedItem>(
+        "bumpy", [](std::size_t n) { return surfaces(n, 0.2f); }, oriented_light, between_surfaces());
+    table.measure<PointItem>("volume", volume, omni_light, in_volume());
+    table.measure<PointItem>("directional", directions, distant_light, in_volume());
     std::ofstream("tree_build.json") << table.rows().dump(2) << "\n";
 }
