@@ -73,9 +73,7 @@ int main() {
 
     const lightcuts::Receiver floor(glm::vec3(0.0f), lightcuts::Lambert{glm::vec3(0.0f, 0.0f, 1.0f), glm::vec3(0.5f)});
     const auto shaded = lightcuts::shade(lights, floor, visible);
-
-    lightcuts::EstimateScratch<glm::vec3> scratch;
-    const auto exact = lightcuts::exhaustive(lights, floor, visible, scratch);
+    const auto exact = lightcuts::exhaustive(lights, floor, visible);
 
     bool good = shaded.queries < 1000;
     for (int c = 0; c < 3; ++c) {

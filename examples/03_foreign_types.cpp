@@ -88,9 +88,7 @@ int main() {
         return !(t > 0.0 && t < 1.0 && hit[2] + t * (o[2] - hit[2]) < 1.5);
     };
     const auto shaded = lightcuts::shade(tree, floor, visible);
-
-    lightcuts::EstimateScratch<glm::vec3> scratch;
-    const auto exact = lightcuts::exhaustive(lightcuts::LightForest(tree), floor, visible, scratch);
+    const auto exact = lightcuts::exhaustive(tree, floor, visible);
 
     bool good = shaded.queries < 1000;
     for (int c = 0; c < 3; ++c) {

@@ -69,16 +69,14 @@ int main() {
         lamps[i].photometry = is_spot ? &spot : &batwing;
     }
     const lightcuts::LightTree tree(lamps);
-    const lightcuts::LightForest lights(tree);
 
-    lightcuts::EstimateScratch<glm::vec3> scratch;
     bool good = true;
     std::printf("  y [m]   lightcut  exhaustive   off by    cut\n");
     for (int y = 0; y <= 20; y += 4) {  // across a street, to the next one
         const lightcuts::Receiver road(glm::vec3(0.0f, y, 0.0f),
                                        lightcuts::Lambert{glm::vec3(0.0f, 0.0f, 1.0f), glm::vec3(0.2f)});
-        const auto shaded = lightcuts::shade(lights, road);  // nothing casts shadows, and no ray is asked for
-        const auto exact = lightcuts::exhaustive(lights, road, lightcuts::AlwaysVisible{}, scratch);
+        const auto shaded = lightcuts::shade(tree, road);  // nothing casts shadows, and no ray is asked for
+        const auto exact = lightcuts::exhaustive(tree, road);
         const float error = std::abs(shaded.radiance.r - exact.radiance.r);
         std::printf("%7d %10.2f %11.2f %7.2f %% %6u\n", y, shaded.radiance.r, exact.radiance.r,
                     100.0f * error / exact.radiance.r, shaded.cut_size);

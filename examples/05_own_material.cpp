@@ -61,8 +61,7 @@ namespace {
 bool check(const char* name, const auto& tree, const auto& material) {
     const lightcuts::Receiver point(glm::vec3(0.0f), material);
     const auto shaded = lightcuts::shade(tree, point);
-    lightcuts::EstimateScratch<glm::vec3> scratch;
-    const auto exact = lightcuts::exhaustive(lightcuts::LightForest(tree), point, lightcuts::AlwaysVisible{}, scratch);
+    const auto exact = lightcuts::exhaustive(tree, point);
     const float error = std::fabs(shaded.radiance.r - exact.radiance.r);
     std::printf("%-18s %8.3f %11.3f %7.2f %% %7u\n", name, shaded.radiance.r, exact.radiance.r,
                 100.0f * error / exact.radiance.r, shaded.cut_size);

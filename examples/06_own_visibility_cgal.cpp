@@ -168,8 +168,7 @@ int main() {
     RTCScene embree_scene = make_embree_scene(device, triangles);
 
     const auto lamps = make_lights();
-    const lightcuts::LightTree light_tree(lamps);
-    const lightcuts::LightForest lights(light_tree);
+    const lightcuts::LightTree lights(lamps);
     const std::vector<Pixel> pixels = trace_eye_rays(tree);
 
     const CgalOracle cgal_oracle(tree);
@@ -190,13 +189,12 @@ int main() {
     std::printf("%d of %zu pixels differ, by at most %.1f %%\n", different, pixels.size(), 100.0 * largest);
 
     // And some pixels light by light.
-    lightcuts::EstimateScratch<glm::vec3> scratch;
     double squares = 0.0;
     int compared = 0;
     bool good = true;
     for (std::size_t i = 0; i < pixels.size(); i += 499) {
         const auto& shaded = cgal[pixels[i].index];
-        const auto exact = lightcuts::exhaustive(lights, pixels[i].seen, cgal_oracle, scratch);
+        const auto exact = lightcuts::exhaustive(lights, pixels[i].seen, cgal_oracle);
         const float error = std::abs(shaded.radiance.g - exact.radiance.g);
         good = good && error <= shaded.error_bound.g + 1e-5f * exact.radiance.g;
         if (!(exact.radiance.g > 0.0f)) continue;

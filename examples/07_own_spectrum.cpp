@@ -51,9 +51,7 @@ int main() {
 
     const lightcuts::Receiver point(glm::vec3(0.0f), lightcuts::Lambert{glm::vec3(0.0f, 0.0f, 1.0f), leaf});
     const auto shaded = lightcuts::shade(tree, point);  // no channel of any cluster is off by more than 2 %
-
-    lightcuts::EstimateScratch<Bands> scratch;
-    const auto exact = lightcuts::exhaustive(lightcuts::LightForest(tree), point, lightcuts::AlwaysVisible{}, scratch);
+    const auto exact = lightcuts::exhaustive(tree, point);
 
     bool good = shaded.cut_size < 1000;
     std::printf("  nm   lightcut  exhaustive\n");

@@ -17,7 +17,6 @@ int main() {
         light.intensity = std::pow(uniform(1e-4f, 1.0f), -1.2f);  // a few are bright, most are dim
     }
     const lightcuts::LightTree tree(lights);
-    const lightcuts::LightForest forest(tree);
 
     const lightcuts::Receiver point(glm::vec3(0.0f), lightcuts::Lambert{glm::vec3(0.0f, 0.0f, 1.0f), 0.5f});
     const auto visible = [](const auto&, const auto& light) {  // through the slits between some beams
@@ -33,7 +32,7 @@ int main() {
     std::printf("    us      rays   radiance   certainly within\n");
     const auto start = std::chrono::steady_clock::now();
     const auto spent = [&] { return std::chrono::steady_clock::now() - start; };
-    lightcuts::Lightcut cut(forest, point, visible, options);
+    lightcuts::Lightcut cut(tree, point, visible, options);
     unsigned reported = 0;
     while (spent() < budget && cut.step()) {  // a round splits up to a few hundred clusters here
         const auto now = cut.result();        // an estimate that can be used, whenever one stops
@@ -44,8 +43,7 @@ int main() {
     }
     const auto shaded = cut.result();
 
-    lightcuts::EstimateScratch<float> scratch;
-    const auto exact = lightcuts::exhaustive(forest, point, visible, scratch);
+    const auto exact = lightcuts::exhaustive(tree, point, visible);
     const float error = std::fabs(shaded.radiance - exact.radiance);
     std::printf("in fact within %.3f %% of the %.2f that all %u rays give\n", 100.0f * error / exact.radiance,
                 exact.radiance, exact.queries);

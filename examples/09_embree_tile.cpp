@@ -99,10 +99,9 @@ int main() {
         lights[i].intensity = glm::vec3(1.0f, 0.9f, 0.7f) * 1e-2f;
     }
     const lightcuts::LightTree tree(lights);
-    const lightcuts::LightForest forest(tree);
 
-    const auto map = bake(forest, oracle, std::max(2u, std::thread::hardware_concurrency()));
-    const auto alone = bake(forest, oracle, 1);
+    const auto map = bake(tree, oracle, std::max(2u, std::thread::hardware_concurrency()));
+    const auto alone = bake(tree, oracle, 1);
     double rays = 0.0;
     bool same = true;
     for (std::size_t i = 0; i < map.size(); ++i) {
@@ -114,13 +113,12 @@ int main() {
     std::printf("one thread bakes %s\n", same ? "the same map" : "ANOTHER MAP");
 
     // Some texels light by light.
-    lightcuts::EstimateScratch<glm::vec3> scratch;
     double squares = 0.0;
     int compared = 0;
     bool within = true;
     for (std::size_t x = 0; x < size; x += 8, ++compared) {
         const std::size_t y = (x * 37) % size;
-        const auto exact = lightcuts::exhaustive(forest, receiver_at(x, y), oracle, scratch);
+        const auto exact = lightcuts::exhaustive(tree, receiver_at(x, y), oracle);
         const Texel& texel = map[y * size + x];
         const float error = std::abs(texel.radiance.r - exact.radiance.r);
         within = within && error <= texel.error_bound.r;
