@@ -1,6 +1,5 @@
 #include <cstdint>
 #include <span>
-#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -107,42 +106,6 @@ TEST(Tiles, AskInOneBatchARound) {
     EXPECT_EQ(rays, total);
     EXPECT_LT(calls, 60u) << "rounds of 64 receivers in lock-step";
     EXPECT_GT(rays / calls, 128u);
-}
-
-TEST(Threads, DoNotChangeABit) {
-    Room<V> room(33);
-    const auto lights = room.oriented(6000);
-    const auto executor = [](std::size_t count, auto&& task) {
-        constexpr std::size_t workers = 4;
-        std::vector<std::thread> threads;
-        for (std::size_t w = 0; w < workers; ++w) {
-            threads.emplace_back([&, w] {
-                for (std::size_t i = w; i < count; i += workers) task(i);
-            });
-        }
-        for (std::thread& t : threads) t.join();
-    };
-    const LightTree tree(lights, {.representatives = 4});
-    const LightTree threaded(lights, {.representatives = 4}, BinnedBuilder{}, executor);
-    ASSERT_EQ(tree.topology(), threaded.topology());
-    for (ClusterTree::node_index n = 0; n < tree.topology().size(); ++n) {
-        EXPECT_EQ(tree.clusters()[n].box, threaded.clusters()[n].box);
-        EXPECT_EQ(tree.clusters()[n].cone, threaded.clusters()[n].cone);
-        EXPECT_EQ(tree.clusters()[n].intensity, threaded.clusters()[n].intensity);
-    }
-
-    const LightForest forest(tree);
-    const Occluders occluders = room.occluders();
-    const BatchedOccluders oracle{occluders};
-    const auto receivers = room.glossy_receivers(64);
-    const auto alone = shade_in_tiles(forest, receivers, oracle, {}, 64);
-    std::vector<CutResult<V>> together(receivers.size());
-    executor(8, [&](std::size_t part) {
-        LightcutScratch<V> scratch;
-        shade(forest, std::span(receivers).subspan(8 * part, 8), oracle, std::span(together).subspan(8 * part, 8),
-              scratch);
-    });
-    expect_same(alone, together, receivers);
 }
 
 // A warm scratch gives what a cold one gives, whatever it was used for before.
