@@ -48,6 +48,8 @@ ErrorFigures compare(const Picture& picture, const Picture& reference) {
     double difference1 = 0;
     double difference2 = 0;
     double reference1 = 0;
+    double sum = 0;
+    double reference_sum = 0;
     double reference2 = 0;
     std::vector<double> relative;
     for (std::size_t i = 0; i < picture.size(); ++i) {
@@ -57,6 +59,8 @@ ErrorFigures compare(const Picture& picture, const Picture& reference) {
             difference1 += std::abs(d);
             difference2 += d * d;
             reference1 += std::abs(r);
+            sum += d;
+            reference_sum += r;
             reference2 += r * r;
         }
         if (luminance(reference.pixels[i]) == 0.0f) continue;
@@ -66,6 +70,7 @@ ErrorFigures compare(const Picture& picture, const Picture& reference) {
     }
     ErrorFigures figures;
     figures.relative_rmse = ratio(std::sqrt(difference2), std::sqrt(reference2));
+    figures.relative_bias = ratio(sum, reference_sum);
     figures.relative_l1 = ratio(difference1, reference1);
     if (!relative.empty()) {
         std::sort(relative.begin(), relative.end());

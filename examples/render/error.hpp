@@ -11,6 +11,7 @@ namespace render {
 struct ErrorFigures {
     double relative_rmse = 0;  ///< |picture - reference|_2 / |reference|_2 over all channels
     double relative_l1 = 0;    ///< likewise with the 1-norm
+    double relative_bias = 0;  ///< sum of (picture - reference) / sum of reference: above 0 the picture is too bright
     /// Of |L - L_ref| / L_ref over pixels, L being luminance; pixels with L_ref = 0 are left out.
     double max_relative = 0;
     double p999_relative = 0;  ///< 99.9th percentile, interpolated between neighbours

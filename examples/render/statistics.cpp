@@ -69,6 +69,7 @@ Json to_json(const ErrorFigures& figures) {
     Json json;
     json["relative_rmse"] = finite_or_null(figures.relative_rmse);
     json["relative_l1"] = finite_or_null(figures.relative_l1);
+    json["relative_bias"] = finite_or_null(figures.relative_bias);
     json["max_relative"] = finite_or_null(figures.max_relative);
     json["p999_relative"] = finite_or_null(figures.p999_relative);
     return json;

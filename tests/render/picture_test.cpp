@@ -116,6 +116,7 @@ TEST(ErrorFigures, AreZeroForEqualPictures) {
     EXPECT_EQ(figures.relative_rmse, 0.0);
     EXPECT_EQ(figures.relative_l1, 0.0);
     EXPECT_EQ(figures.max_relative, 0.0);
+    EXPECT_EQ(figures.relative_bias, 0.0);
     EXPECT_EQ(figures.p999_relative, 0.0);
 }
 
@@ -130,6 +131,7 @@ TEST(ErrorFigures, MatchHandComputedValues) {
     EXPECT_NEAR(figures.relative_rmse, 3.0 / 5.0, 1e-12);
     EXPECT_NEAR(figures.relative_l1, 5.0 / 7.0, 1e-12);
     EXPECT_NEAR(figures.max_relative, 0.5, 1e-6);
+    EXPECT_NEAR(figures.relative_bias, 1.0 / 7.0, 1e-12);
     EXPECT_NEAR(figures.p999_relative, 1.0 / 3.0 + 0.999 * (0.5 - 1.0 / 3.0), 1e-6);
 }
 

@@ -166,7 +166,7 @@ TEST_F(Programs, AgreeWithinTheStatedError) {
     ASSERT_EQ(render(scene + "--method exhaustive -o exact.exr").status, 0);
     ASSERT_EQ(render(scene + "--method lightcuts --reference exact.exr").status, 0);
     const Json error = report("render.json").at("error");
-    for (const char* key : {"relative_rmse", "relative_l1", "max_relative", "p999_relative"}) {
+    for (const char* key : {"relative_rmse", "relative_l1", "relative_bias", "max_relative", "p999_relative"}) {
         ASSERT_TRUE(error.at(key).is_number()) << key;
     }
     EXPECT_LT(error.at("relative_rmse"), 0.025);
