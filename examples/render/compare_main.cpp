@@ -1,11 +1,15 @@
+#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
+#include <lightcuts/core/invalid_input.hpp>
 #include <nlohmann/json.hpp>
 
 #include "error.hpp"
+#include "false_color.hpp"
 #include "options.hpp"
 #include "output_file.hpp"
 #include "picture.hpp"
@@ -15,34 +19,90 @@ namespace {
 
 using namespace render;
 
-/// Relative error that the heat map shows as white.
-constexpr double heat_scale = 0.1;
+struct CompareOptions {
+    std::string picture;
+    std::string reference;
+    std::string layer;
+    std::string out;
+    double white = 0;  ///< 0: not given
+};
 
-void compare_files(const std::string& picture_path, const std::string& reference_path, const std::string& heat_path) {
-    const Picture picture = read_exr(picture_path);
-    const Picture reference = read_exr(reference_path);
+void write_colors(const std::string& path, const Picture& picture, const std::vector<glm::vec3>& colors) {
+    OutputFile file(path);
+    write_png(file.path(), picture.width, picture.height, colors);
+    file.commit();
+}
+
+void compare_pictures(const CompareOptions& options) {
+    /// Relative error that the heat map shows as white.
+    constexpr double usual_white = 0.1;
+    const Picture picture = read_exr(options.picture);
+    const Picture reference = read_exr(options.reference);
     const ErrorFigures figures = compare(picture, reference);
-    if (!heat_path.empty()) {
-        OutputFile heat(heat_path);
-        write_png(heat.path(), picture.width, picture.height, heat_map(picture, reference, heat_scale));
-        heat.commit();
+    if (!options.out.empty()) {
+        const double white = options.white > 0 ? options.white : usual_white;
+        write_colors(options.out, picture, heat_map(picture, reference, white));
     }
     std::printf("%s\n", to_json(figures).dump(2).c_str());
+}
+
+const std::vector<float>& layer_of(const Picture& picture, const CompareOptions& options) {
+    if (const Picture::Channel* channel = picture.find(options.layer)) return channel->values;
+    std::string names;
+    for (const Picture::Channel& channel : picture.channels) names += (names.empty() ? "" : ", ") + channel.name;
+    throw lightcuts::invalid_input(
+        options.picture + ": no layer " + options.layer + "; " +
+        (names.empty() ? "it has none, which lightcuts-render --aov writes" : "it has " + names));
+}
+
+void show_layer(const CompareOptions& options) {
+    const Picture picture = read_exr(options.picture);
+    const std::vector<float>& values = layer_of(picture, options);
+    const LayerFigures figures = figures_of(values);
+    const double white = options.white > 0 ? options.white : figures.max > 0 ? figures.max : 1.0;
+    if (!options.out.empty()) {
+        std::vector<glm::vec3> colors;
+        colors.reserve(values.size());
+        for (const float v : values) colors.push_back(false_color(static_cast<double>(v), white));
+        write_colors(options.out, picture, colors);
+    }
+    nlohmann::ordered_json json;
+    json["layer"] = options.layer;
+    json["min"] = figures.min;
+    json["mean"] = figures.mean;
+    json["max"] = figures.max;
+    json["white"] = white;
+    std::printf("%s\n", json.dump(2).c_str());
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    std::string picture;
-    std::string reference;
-    std::string heat;
-    CLI::App app("Prints how far picture A is from reference B, as JSON.", "lightcuts-compare");
-    app.add_option("A", picture, "OpenEXR picture")->required();
-    app.add_option("B", reference, "OpenEXR reference")->required();
-    app.add_option("--out", heat, "PNG of the relative error of luminance, black (0) to white (10 % and more)");
+    CompareOptions options;
+    CLI::App app(
+        "Prints how far picture A is from reference B, as JSON; or what a layer of A holds.\n"
+        "Pictures in false colours: black is 0, then blue, red, yellow and white, a quarter of the range each.",
+        "lightcuts-compare");
+    app.add_option("A", options.picture, "OpenEXR picture")->required();
+    auto* reference = app.add_option("B", options.reference, "OpenEXR reference");
+    auto* layer = app.add_option("--layer", options.layer, "show this layer of A, such as cut_size");
+    app.add_option("--out", options.out, "PNG in false colours: of the relative error of luminance, or of the layer");
+    auto* white = app.add_option("--white", options.white,
+                                 "what is white in it (0.1, which is 10 %; of a layer its largest value)");
+    layer->excludes(reference);
     try {
         app.parse(argc, argv);
-        compare_files(picture, reference, heat);
+        if (white->count() > 0 && !(options.white > 0 && std::isfinite(options.white))) {
+            throw CLI::ValidationError("--white", "expected a finite number above 0");
+        }
+        if (options.layer.empty() && options.reference.empty()) {
+            throw CLI::RequiredError("a reference B, or --layer NAME,");
+        }
+        if (options.layer.empty()) {
+            compare_pictures(options);
+        } else {
+            show_layer(options);
+        }
         return 0;
     } catch (const CLI::CallForHelp&) {
         std::fputs(app.help().c_str(), stdout);

@@ -1,13 +1,12 @@
 #include "error.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
-#include <glm/common.hpp>
 #include <lightcuts/core/invalid_input.hpp>
 
+#include "false_color.hpp"
 #include "luminance.hpp"
 
 namespace render {
@@ -48,9 +47,9 @@ ErrorFigures compare(const Picture& picture, const Picture& reference) {
     double difference1 = 0;
     double difference2 = 0;
     double reference1 = 0;
+    double reference2 = 0;
     double sum = 0;
     double reference_sum = 0;
-    double reference2 = 0;
     std::vector<double> relative;
     for (std::size_t i = 0; i < picture.size(); ++i) {
         for (int c = 0; c < 3; ++c) {
@@ -59,9 +58,9 @@ ErrorFigures compare(const Picture& picture, const Picture& reference) {
             difference1 += std::abs(d);
             difference2 += d * d;
             reference1 += std::abs(r);
+            reference2 += r * r;
             sum += d;
             reference_sum += r;
-            reference2 += r * r;
         }
         if (luminance(reference.pixels[i]) == 0.0f) continue;
         const double error = relative_luminance_error(picture.pixels[i], reference.pixels[i]);
@@ -70,8 +69,8 @@ ErrorFigures compare(const Picture& picture, const Picture& reference) {
     }
     ErrorFigures figures;
     figures.relative_rmse = ratio(std::sqrt(difference2), std::sqrt(reference2));
-    figures.relative_bias = ratio(sum, reference_sum);
     figures.relative_l1 = ratio(difference1, reference1);
+    figures.relative_bias = ratio(sum, reference_sum);
     if (!relative.empty()) {
         std::sort(relative.begin(), relative.end());
         figures.max_relative = relative.back();
@@ -80,21 +79,15 @@ ErrorFigures compare(const Picture& picture, const Picture& reference) {
     return figures;
 }
 
-std::vector<glm::vec3> heat_map(const Picture& picture, const Picture& reference, double full_scale) {
+std::vector<glm::vec3> heat_map(const Picture& picture, const Picture& reference, double white) {
     require_same_size(picture, reference);
-    const std::array<glm::vec3, 5> ramp = {glm::vec3(0.0f, 0.0f, 0.0f), glm::vec3(0.05f, 0.05f, 0.6f),
-                                           glm::vec3(0.8f, 0.05f, 0.1f), glm::vec3(1.0f, 0.8f, 0.0f),
-                                           glm::vec3(1.0f, 1.0f, 1.0f)};
     std::vector<glm::vec3> colors;
     colors.reserve(picture.size());
     for (std::size_t i = 0; i < picture.size(); ++i) {
-        const double error = relative_luminance_error(picture.pixels[i], reference.pixels[i]);
-        // Neither a black pixel of both pictures (0/0) nor a broken one may index the ramp.
-        const bool both_black = picture.pixels[i] == reference.pixels[i];
-        const double heat = both_black ? 0.0 : error < full_scale ? error / full_scale : 1.0;
-        const double at = heat * static_cast<double>(ramp.size() - 1);
-        const std::size_t below = std::min(static_cast<std::size_t>(at), ramp.size() - 2);
-        colors.push_back(glm::mix(ramp[below], ramp[below + 1], static_cast<float>(at - static_cast<double>(below))));
+        // A pixel that is black in both pictures is no error, although it is 0/0.
+        const bool equal = picture.pixels[i] == reference.pixels[i];
+        const double error = equal ? 0.0 : relative_luminance_error(picture.pixels[i], reference.pixels[i]);
+        colors.push_back(false_color(error, white));
     }
     return colors;
 }

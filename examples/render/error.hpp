@@ -20,8 +20,8 @@ struct ErrorFigures {
 /// throws: invalid_input if the sizes differ.
 ErrorFigures compare(const Picture& picture, const Picture& reference);
 
-/// A picture of each pixel's relative error of luminance: black at 0, through blue, red and yellow to white at
-/// `full_scale` and above. Values in [0, 1], before the sRGB curve. throws: invalid_input if the sizes differ.
-std::vector<glm::vec3> heat_map(const Picture& picture, const Picture& reference, double full_scale);
+/// A picture of each pixel's relative error of luminance, in false colours. pre: white > 0.
+/// throws: invalid_input if the sizes differ.
+std::vector<glm::vec3> heat_map(const Picture& picture, const Picture& reference, double white);
 
 }  // namespace render

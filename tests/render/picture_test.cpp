@@ -11,6 +11,7 @@
 #include <half.h>
 #include <lightcuts/core/invalid_input.hpp>
 #include <render/error.hpp>
+#include <render/false_color.hpp>
 #include <render/luminance.hpp>
 #include <render/output_file.hpp>
 #include <render/picture.hpp>
@@ -115,8 +116,8 @@ TEST(ErrorFigures, AreZeroForEqualPictures) {
     const auto figures = render::compare(a, a);
     EXPECT_EQ(figures.relative_rmse, 0.0);
     EXPECT_EQ(figures.relative_l1, 0.0);
-    EXPECT_EQ(figures.max_relative, 0.0);
     EXPECT_EQ(figures.relative_bias, 0.0);
+    EXPECT_EQ(figures.max_relative, 0.0);
     EXPECT_EQ(figures.p999_relative, 0.0);
 }
 
@@ -130,8 +131,8 @@ TEST(ErrorFigures, MatchHandComputedValues) {
     const auto figures = render::compare(picture, reference);
     EXPECT_NEAR(figures.relative_rmse, 3.0 / 5.0, 1e-12);
     EXPECT_NEAR(figures.relative_l1, 5.0 / 7.0, 1e-12);
-    EXPECT_NEAR(figures.max_relative, 0.5, 1e-6);
     EXPECT_NEAR(figures.relative_bias, 1.0 / 7.0, 1e-12);
+    EXPECT_NEAR(figures.max_relative, 0.5, 1e-6);
     EXPECT_NEAR(figures.p999_relative, 1.0 / 3.0 + 0.999 * (0.5 - 1.0 / 3.0), 1e-6);
 }
 
@@ -180,6 +181,35 @@ TEST(HeatMap, GrowsBrighterWithTheError) {
     EXPECT_EQ(colors[0], glm::vec3(0.0f));
     EXPECT_EQ(colors[4], glm::vec3(1.0f));
     for (std::size_t i = 1; i < 5; ++i) EXPECT_GT(render::luminance(colors[i]), render::luminance(colors[i - 1]));
+}
+
+TEST(FalseColor, RunsFromBlackThroughBlueRedAndYellowToWhite) {
+    using render::false_color;
+    EXPECT_EQ(false_color(0.0, 8.0), glm::vec3(0.0f));
+    const glm::vec3 blue = false_color(2.0, 8.0), red = false_color(4.0, 8.0), yellow = false_color(6.0, 8.0);
+    EXPECT_GT(blue.z, 2.0f * std::max(blue.x, blue.y));
+    EXPECT_GT(red.x, 2.0f * std::max(red.y, red.z));
+    EXPECT_GT(std::min(yellow.x, yellow.y), 2.0f * yellow.z);
+    EXPECT_EQ(false_color(8.0, 8.0), glm::vec3(1.0f));
+}
+
+TEST(FalseColor, TakesWhatIsOutOfRangeOrNoNumber) {
+    using render::false_color;
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(false_color(-1.0, 8.0), glm::vec3(0.0f));
+    EXPECT_EQ(false_color(-infinite, 8.0), glm::vec3(0.0f));
+    EXPECT_EQ(false_color(9.0, 8.0), glm::vec3(1.0f));
+    EXPECT_EQ(false_color(infinite, 8.0), glm::vec3(1.0f));
+    EXPECT_EQ(false_color(std::numeric_limits<double>::quiet_NaN(), 8.0), glm::vec3(1.0f));
+}
+
+TEST(LayerFigures, LeaveOutWhatIsNotFinite) {
+    constexpr float infinite = std::numeric_limits<float>::infinity();
+    const auto figures = render::figures_of({infinite, 3.0f, -1.0f, std::numeric_limits<float>::quiet_NaN(), 1.0f});
+    EXPECT_EQ(figures.min, -1.0);
+    EXPECT_EQ(figures.mean, 1.0);
+    EXPECT_EQ(figures.max, 3.0);
+    EXPECT_EQ(render::figures_of({infinite}).max, 0.0);
 }
 
 TEST(OutputFile, ReplacesItsTargetOnlyOnCommit) {

@@ -179,6 +179,26 @@ TEST_F(Programs, AgreeWithinTheStatedError) {
     EXPECT_EQ(Json::parse(compare("exact.exr exact.exr").out).at("max_relative"), 0.0);
 }
 
+TEST_F(Programs, ShowALayerInFalseColors) {
+    ASSERT_EQ(render("room.obj --size 16x12 --quiet --aov cut_size,depth" + view).status, 0);
+    const auto shown = compare("render.exr --layer cut_size --white 100 --out cut.png");
+    ASSERT_EQ(shown.status, 0) << shown.err;
+    const Json json = Json::parse(shown.out);
+    EXPECT_EQ(json.at("layer"), "cut_size");
+    EXPECT_EQ(json.at("white"), 100.0);
+    EXPECT_LE(json.at("min"), json.at("mean"));
+    EXPECT_LE(json.at("mean"), json.at("max"));
+    EXPECT_GT(json.at("max"), 1.0);
+    EXPECT_EQ(folder.read("cut.png").substr(1, 3), "PNG");
+
+    // Left to itself, white is the largest value.
+    const Json usual = Json::parse(compare("render.exr --layer cut_size --out usual.png").out);
+    EXPECT_EQ(usual.at("white"), usual.at("max"));
+    EXPECT_NE(folder.read("usual.png"), folder.read("cut.png"));
+    const Json depth = Json::parse(compare("render.exr --layer depth").out);
+    EXPECT_GT(depth.at("min"), 0.0);
+}
+
 TEST_F(Programs, MakeTheSameImageWithAnyNumberOfThreads) {
     const std::string scene = "room.obj --size 50x40 --spp 2 --aov cut_size,error_bound --quiet" + view;
     for (const std::string method : {"lightcuts", "exhaustive"}) {
@@ -327,12 +347,26 @@ TEST_F(Programs, LeaveOldFilesAloneWhenTheyFail) {
 TEST_F(Programs, CompareRefusesInOneLine) {
     write_exr(folder / "small.exr", Picture(4, 4));
     write_exr(folder / "large.exr", Picture(5, 4));
+    Picture layered(4, 4);
+    layered.add_channel("cut_size");
+    layered.add_channel("depth");
+    write_exr(folder / "layered.exr", layered);
     const Refusal refusals[] = {
         {"small.exr large.exr", 1, "4x4"},
         {"small.exr absent.exr", 1, "absent.exr"},
         {"small.exr small.exr --out no/a.png", 1, "no/a.png"},
         {"small.exr", 2, "B"},
         {"small.exr small.exr --unknown", 2, "--unknown"},
+        {"layered.exr --layer cut", 1, "it has cut_size, depth"},
+        {"small.exr --layer cut_size", 1, "--aov"},
+        {"absent.exr --layer cut_size", 1, "absent.exr"},
+        {"layered.exr --layer depth --out no/a.png", 1, "no/a.png"},
+        {"layered.exr layered.exr --layer depth", 2, "--layer"},
+        {"layered.exr --layer depth --white 0", 2, "--white"},
+        {"layered.exr --layer depth --white inf", 2, "--white"},
+        {"layered.exr --layer depth --white x", 2, "--white"},
+        {"small.exr small.exr --white -1", 2, "--white"},
+        {"layered.exr --layer", 2, "--layer"},
     };
     for (const Refusal& refusal : refusals) {
         const auto result = compare(refusal.arguments);
