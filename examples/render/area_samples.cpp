@@ -12,6 +12,7 @@
 #include <lightcuts/core/spectrum.hpp>
 
 #include "flat_samples.hpp"
+#include "surface_colors.hpp"
 
 namespace render {
 namespace {
@@ -128,12 +129,7 @@ std::vector<Piece> cut_and_sort(const Scene& scene, std::span<const std::uint32_
 }
 
 glm::vec3 emitted_radiance(const Scene& scene, std::uint32_t t, const glm::vec2& at) {
-    const Material& material = scene.materials[scene.triangle_material[t]];
-    if (material.emission_texture == no_texture || scene.uvs.empty()) return material.emission;
-    const glm::uvec3 i = scene.triangles[t];
-    const glm::vec2 place = (1.0f - at.x - at.y) * scene.uvs[i.x] + at.x * scene.uvs[i.y] + at.y * scene.uvs[i.z];
-    const Texture& texture = scene.textures[static_cast<std::size_t>(material.emission_texture)];
-    return material.emission * glm::vec3(texture.sample(place));
+    return emission_at(scene, t, at.x, at.y);
 }
 
 /// Mean over a piece by a rule of sixteen points: the centres of its sixteenths.

@@ -22,6 +22,7 @@
 #include <lightcuts/core/vector.hpp>
 
 #include "gltf_accessor.hpp"
+#include "gltf_texture_info.hpp"
 #include "text_file.hpp"
 #include "texture.hpp"
 
@@ -30,7 +31,8 @@ namespace {
 
 constexpr std::array supported_extensions{"KHR_lights_punctual",        "KHR_materials_emissive_strength",
                                           "KHR_materials_transmission", "KHR_materials_ior",
-                                          "KHR_mesh_quantization",      "KHR_materials_volume"};
+                                          "KHR_mesh_quantization",      "KHR_materials_volume",
+                                          "KHR_texture_transform"};
 
 double number(const tinygltf::Value& value, double otherwise) {
     return value.IsNumber() ? value.GetNumberAsDouble() : otherwise;
@@ -187,24 +189,31 @@ private:
         if (source.alphaMode == "MASK") m.alpha = Material::Alpha::mask;
         if (source.alphaMode == "BLEND") m.alpha = Material::Alpha::blend;
         m.alpha_cutoff = static_cast<float>(source.alphaCutoff);
+        uv_sets_.push_back(add_texture_uses(source, m));
         scene_.materials.push_back(m);
-        uv_sets_.push_back(uv_set(source, m));
     }
 
-    /// The one set of uvs that all the textures in use ask for.
-    int uv_set(const tinygltf::Material& source, const Material& m) const {
-        const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
+    /// Says how the material's textures are addressed; returns the one set of uvs that all of them ask for.
+    int add_texture_uses(const tinygltf::Material& source, Material& m) const {
         int set = -1;
-        for (const auto& [used, asked] :
-             {std::pair(m.base_color_texture, pbr.baseColorTexture.texCoord),
-              std::pair(m.metallic_roughness_texture, pbr.metallicRoughnessTexture.texCoord),
-              std::pair(m.emission_texture, source.emissiveTexture.texCoord)}) {
-            if (used == no_texture) continue;
-            if (set >= 0 && set != asked) {
+        const auto add = [&](int texture, const tinygltf::TextureInfo& info, UvTransform& transform) {
+            if (texture == no_texture) return;
+            TextureUse use;
+            try {
+                use = texture_use(info.texCoord, info.extensions);
+            } catch (const lightcuts::invalid_input& problem) {
+                fail("material '" + source.name + "': " + problem.what());
+            }
+            if (set >= 0 && set != use.uv_set) {
                 fail("material '" + source.name + "' uses two sets of texture coordinates; export with one");
             }
-            set = asked;
-        }
+            set = use.uv_set;
+            transform = use.transform;
+        };
+        add(m.base_color_texture, source.pbrMetallicRoughness.baseColorTexture, m.base_color_uv);
+        add(m.metallic_roughness_texture, source.pbrMetallicRoughness.metallicRoughnessTexture,
+            m.metallic_roughness_uv);
+        add(m.emission_texture, source.emissiveTexture, m.emission_uv);
         return std::max(set, 0);
     }
 

@@ -14,6 +14,7 @@
 #include <lightcuts/core/invalid_input.hpp>
 
 #include "check_obj.hpp"
+#include "luminance.hpp"
 #include "text_file.hpp"
 #include "texture.hpp"
 
@@ -58,15 +59,32 @@ private:
         throw lightcuts::invalid_input(path_.string() + ": " + message);
     }
 
-    int texture(const std::string& name) {
+    enum class Role { color, alpha };
+
+    int texture(const std::string& name, Role role = Role::color) {
         if (name.empty()) return no_texture;
-        const auto [entry, is_new] = textures_.try_emplace(name, static_cast<int>(scene_.textures.size()));
+        const auto [entry, is_new] = textures_.try_emplace({name, role}, static_cast<int>(scene_.textures.size()));
         if (is_new) {
             std::string portable = name;
             std::replace(portable.begin(), portable.end(), '\\', '/');
-            scene_.textures.push_back(read_texture(path_.parent_path() / portable, true));
+            const bool is_color = role == Role::color;
+            scene_.textures.push_back(read_texture(path_.parent_path() / portable, is_color));
+            if (!is_color) make_mask(scene_.textures.back());
         }
         return entry->second;
+    }
+
+    /// Brightness becomes alpha, unless the picture has an alpha of its own.
+    static void make_mask(Texture& texture) {
+        if (has_holes(texture)) return;
+        for (glm::vec4& t : texture.texels) {
+            const bool grey = t.r == t.g && t.g == t.b;
+            t.a = grey ? t.r : luminance(glm::vec3(t));
+        }
+    }
+
+    static bool has_holes(const Texture& texture) {
+        return std::any_of(texture.texels.begin(), texture.texels.end(), [](const glm::vec4& t) { return t.a < 1.0f; });
     }
 
     void add_material(const tinyobj::material_t& source) {
@@ -90,15 +108,12 @@ private:
             m.transmission = 1.0f;
         } else {
             m.base_color_texture = texture(source.diffuse_texname);
-            if (m.base_alpha < 1.0f || has_holes(m.base_color_texture)) m.alpha = Material::Alpha::blend;
+            m.alpha_texture = texture(source.alpha_texname, Role::alpha);
+            const int alpha = m.alpha_texture != no_texture ? m.alpha_texture : m.base_color_texture;
+            const bool holes = alpha != no_texture && has_holes(scene_.textures[static_cast<std::size_t>(alpha)]);
+            if (m.base_alpha < 1.0f || holes) m.alpha = Material::Alpha::blend;
         }
         scene_.materials.push_back(m);
-    }
-
-    bool has_holes(int index) const {
-        if (index == no_texture) return false;
-        const std::vector<glm::vec4>& texels = scene_.textures[static_cast<std::size_t>(index)].texels;
-        return std::any_of(texels.begin(), texels.end(), [](const glm::vec4& t) { return t.a < 1.0f; });
     }
 
     std::uint32_t default_material() {
@@ -150,7 +165,7 @@ private:
     std::vector<tinyobj::shape_t> shapes_;
     std::vector<tinyobj::material_t> materials_;
     Scene scene_;
-    std::map<std::string, int> textures_;
+    std::map<std::pair<std::string, Role>, int> textures_;
     std::map<std::array<int, 3>, std::uint32_t> vertices_;
     int default_material_ = -1;
 };

@@ -31,6 +31,15 @@ struct Texture {
 
 inline constexpr int no_texture = -1;
 
+/// Where in a texture a surface's uv looks: an affine map, the identity unless the scene file says otherwise.
+struct UvTransform {
+    glm::vec2 offset{0.0f};
+    glm::vec2 u_axis{1.0f, 0.0f};
+    glm::vec2 v_axis{0.0f, 1.0f};
+
+    glm::vec2 operator()(glm::vec2 uv) const { return offset + uv.x * u_axis + uv.y * v_axis; }
+};
+
 /// What a surface does with light, as the scene file states it. Colours are linear.
 struct Material {
     enum class Model { microfacet, phong, mirror, glass };  ///< microfacet: glTF; the others: OBJ's illum and Ks
@@ -40,19 +49,23 @@ struct Material {
     Model model = Model::microfacet;
     glm::vec3 base_color{0.8f};  ///< microfacet: base colour; phong: Kd; mirror: reflectance; glass: tint
     int base_color_texture = no_texture;
+    UvTransform base_color_uv;
     float metallic = 0.0f;
     float roughness = 1.0f;
     int metallic_roughness_texture = no_texture;
+    UvTransform metallic_roughness_uv;
     glm::vec3 specular{0.0f};   ///< phong: Ks
     float exponent = 0.0f;      ///< phong: Ns
     float ior = 1.5f;           ///< glass
     float transmission = 0.0f;  ///< share of light that a shadow ray keeps, times base_color (1 for glass)
     glm::vec3 emission{0.0f};   ///< emitted radiance
     int emission_texture = no_texture;
+    UvTransform emission_uv;
     bool double_sided = false;  ///< an emitter emits on both sides
     Alpha alpha = Alpha::opaque;
     float alpha_cutoff = 0.5f;
     float base_alpha = 1.0f;
+    int alpha_texture = no_texture;  ///< its alpha stands in for the base colour texture's, where there is one
 };
 
 struct Camera {

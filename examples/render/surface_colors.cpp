@@ -13,9 +13,21 @@ const Material& material_of(const Scene& scene, std::uint32_t triangle) {
     return scene.materials[scene.triangle_material[triangle]];
 }
 
+const Texture& texture_of(const Scene& scene, int index) { return scene.textures[static_cast<std::size_t>(index)]; }
+
 glm::vec4 texel(const Scene& scene, int texture, glm::vec2 uv) {
-    if (texture == no_texture) return glm::vec4(1.0f);
-    return scene.textures[static_cast<std::size_t>(texture)].sample(uv);
+    return texture == no_texture ? glm::vec4(1.0f) : texture_of(scene, texture).sample(uv);
+}
+
+/// The base colour texture's colour and the alpha of whichever texture has it.
+glm::vec4 base_texel(const Scene& scene, const Material& material, glm::vec2 uv) {
+    glm::vec4 base = texel(scene, material.base_color_texture, material.base_color_uv(uv));
+    if (material.alpha_texture != no_texture) base.a = texel(scene, material.alpha_texture, uv).a;
+    return base;
+}
+
+glm::vec4 metallic_roughness_texel(const Scene& scene, const Material& material, glm::vec2 uv) {
+    return texel(scene, material.metallic_roughness_texture, material.metallic_roughness_uv(uv));
 }
 
 float cover_of(const Material& material, float alpha) {
@@ -29,10 +41,9 @@ float cover_of(const Material& material, float alpha) {
 
 float smallest_alpha(const Scene& scene, const Material& material) {
     float smallest = 1.0f;
-    if (material.base_color_texture != no_texture) {
-        for (const glm::vec4& t : scene.textures[static_cast<std::size_t>(material.base_color_texture)].texels) {
-            smallest = std::min(smallest, t.a);
-        }
+    const int texture = material.alpha_texture != no_texture ? material.alpha_texture : material.base_color_texture;
+    if (texture != no_texture) {
+        for (const glm::vec4& t : texture_of(scene, texture).texels) smallest = std::min(smallest, t.a);
     }
     return smallest * material.base_alpha;
 }
@@ -53,33 +64,40 @@ glm::vec2 uv_at(const Scene& scene, std::uint32_t triangle, float u, float v) {
 SurfaceColors colors_at(const Scene& scene, std::uint32_t triangle, float u, float v) {
     const Material& material = material_of(scene, triangle);
     const glm::vec2 uv = uv_at(scene, triangle, u, v);
-    const glm::vec4 base = texel(scene, material.base_color_texture, uv);
-    const glm::vec4 metal_rough = texel(scene, material.metallic_roughness_texture, uv);
+    const glm::vec4 base = base_texel(scene, material, uv);
+    const glm::vec4 metal_rough = metallic_roughness_texel(scene, material, uv);
     SurfaceColors colors;
     colors.base = material.base_color * glm::vec3(base);
     colors.cover = cover_of(material, material.base_alpha * base.a);
     colors.metallic = glm::clamp(material.metallic * metal_rough.b, 0.0f, 1.0f);
     colors.roughness = glm::clamp(material.roughness * metal_rough.g, 0.0f, 1.0f);
     colors.transmission = transmission_of(material, colors.metallic);
-    colors.emission = material.emission * glm::vec3(texel(scene, material.emission_texture, uv));
+    colors.emission = emission_at(scene, triangle, u, v);
     return colors;
+}
+
+glm::vec3 emission_at(const Scene& scene, std::uint32_t triangle, float u, float v) {
+    const Material& material = material_of(scene, triangle);
+    if (material.emission_texture == no_texture) return material.emission;
+    const glm::vec2 uv = material.emission_uv(uv_at(scene, triangle, u, v));
+    return material.emission * glm::vec3(texel(scene, material.emission_texture, uv));
 }
 
 float cover_at(const Scene& scene, std::uint32_t triangle, float u, float v) {
     const Material& material = material_of(scene, triangle);
     if (material.alpha == Material::Alpha::opaque) return 1.0f;
-    const glm::vec4 base = texel(scene, material.base_color_texture, uv_at(scene, triangle, u, v));
+    const glm::vec4 base = base_texel(scene, material, uv_at(scene, triangle, u, v));
     return cover_of(material, material.base_alpha * base.a);
 }
 
 glm::vec3 tint_at(const Scene& scene, std::uint32_t triangle, float u, float v) {
     const Material& material = material_of(scene, triangle);
     const glm::vec2 uv = uv_at(scene, triangle, u, v);
-    const glm::vec4 base = texel(scene, material.base_color_texture, uv);
+    const glm::vec4 base = base_texel(scene, material, uv);
     const float cover = cover_of(material, material.base_alpha * base.a);
     glm::vec3 passed(1.0f - cover);
     if (material.transmission > 0.0f) {
-        const float metallic = material.metallic * texel(scene, material.metallic_roughness_texture, uv).b;
+        const float metallic = material.metallic * metallic_roughness_texel(scene, material, uv).b;
         passed += cover * transmission_of(material, metallic) * material.base_color * glm::vec3(base);
     }
     return glm::min(passed, glm::vec3(1.0f));

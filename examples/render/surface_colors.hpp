@@ -26,6 +26,9 @@ glm::vec2 uv_at(const Scene& scene, std::uint32_t triangle, float u, float v);
 /// All of a material's parameters at barycentric (u, v) of `triangle`.
 SurfaceColors colors_at(const Scene& scene, std::uint32_t triangle, float u, float v);
 
+/// `colors_at(...).emission` alone.
+glm::vec3 emission_at(const Scene& scene, std::uint32_t triangle, float u, float v);
+
 /// `colors_at(...).cover` alone.
 float cover_at(const Scene& scene, std::uint32_t triangle, float u, float v);
 

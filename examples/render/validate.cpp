@@ -95,7 +95,11 @@ struct Checker {
             require(std::isfinite(m.alpha_cutoff), "the alpha cutoff");
             require(within(m.exponent, 0.0f, 1e9f), "the specular exponent");
             require(within(m.ior, 0.1f, 100.0f), "the index of refraction");
-            for (const int index : {m.base_color_texture, m.metallic_roughness_texture, m.emission_texture}) {
+            for (const UvTransform& t : {m.base_color_uv, m.metallic_roughness_uv, m.emission_uv}) {
+                require(is_finite(glm::vec3(t.offset + t.u_axis + t.v_axis, 0.0f)), "a texture transform");
+            }
+            for (const int index :
+                 {m.base_color_texture, m.metallic_roughness_texture, m.emission_texture, m.alpha_texture}) {
                 if (index != no_texture && (index < 0 || static_cast<std::size_t>(index) >= scene.textures.size())) {
                     fail("material '" + m.name + "' has a texture that is not there; add it");
                 }

@@ -229,4 +229,22 @@ TEST(EmitterLights, TextureDistributesThem) {
     EXPECT_TRUE(s.oriented.empty());
 }
 
+TEST(EmitterLights, GoWhereTheTextureTransformSays) {
+    Scene s = empty_scene();
+    s.materials[0].emission = glm::vec3(1.0f);
+    s.materials[0].emission_texture = 0;
+    s.materials[0].emission_uv = {{1.0f, 0.0f}, {-1.0f, 0.0f}, {0.0f, 1.0f}};  // mirrored
+    render::Texture texture;
+    texture.width = 64;
+    texture.height = 1;
+    for (int i = 0; i < 64; ++i) texture.texels.push_back(i < 32 ? glm::vec4(1.0f) : glm::vec4(0.0f));
+    texture.wrap_u = render::Texture::Wrap::clamp;
+    s.textures.push_back(texture);
+    Modeller(s).quad({0, 0, 0}, {2, 0, 0}, {0, 1, 0});
+    for (const glm::vec3& p : s.positions) s.uvs.emplace_back(0.5f * p.x, p.y);
+    add_emitter_lights(s, 100);
+    ASSERT_EQ(s.oriented.size(), 100u);
+    for (const auto& light : s.oriented) EXPECT_GT(light.position.x, 0.98f);
+}
+
 }  // namespace

@@ -13,6 +13,7 @@
 #include <render/load_scene.hpp>
 #include <render/texture.hpp>
 
+#include "bitmap.hpp"
 #include "refusal.hpp"
 #include "temporary_folder.hpp"
 
@@ -61,16 +62,6 @@ std::string glb(std::string json, std::string data) {
     const auto data_size = static_cast<std::uint32_t>(data.size());
     return "glTF" + bytes<std::uint32_t>({2, 28 + json_size + data_size, json_size, 0x4E4F534A}) + json +
            bytes<std::uint32_t>({data_size, 0x004E4942}) + data;
-}
-
-/// A BMP picture of one row.
-std::string bitmap(const std::vector<std::array<std::uint8_t, 3>>& rgb) {
-    const auto row = static_cast<std::uint32_t>((3 * rgb.size() + 3) / 4 * 4);
-    std::string file = "BM" + bytes<std::uint32_t>({54 + row, 0, 54, 40, static_cast<std::uint32_t>(rgb.size()), 1}) +
-                       bytes<std::uint16_t>({1, 24}) + bytes<std::uint32_t>({0, row, 2835, 2835, 0, 0});
-    for (const auto& [r, g, b] : rgb) file += {static_cast<char>(b), static_cast<char>(g), static_cast<char>(r)};
-    file.resize(54 + row, '\0');
-    return file;
 }
 
 /// Writes data.bin and the file; loads it.
@@ -203,6 +194,46 @@ TEST_F(GltfFile, Materials) {
     EXPECT_NEAR(color.texels[0].r, 0.5029f, 1e-4f);
     EXPECT_NEAR(color.texels[1].g, 0.2159f, 1e-4f);
     EXPECT_NEAR(data.texels[1].g, 128.0f / 255.0f, 1e-6f);
+}
+
+TEST_F(GltfFile, TextureTransforms) {
+    folder.write("t.bmp", bitmap({{255, 255, 255}}));
+    const auto material = [&](const std::string& info) {
+        return R"("images":[{"uri":"t.bmp"}],"textures":[{"source":0}],"extensionsRequired":["KHR_texture_transform"],
+            "materials":[{"name":"tiled","emissiveFactor":[1,1,1],"pbrMetallicRoughness":{"baseColorTexture":{"index":0},
+            "metallicRoughnessTexture":{"index":0)" +
+               info + R"(}},"emissiveTexture":{"index":0)" + info + R"(}}],"nodes":[{"mesh":0}])";
+    };
+    const auto read = [&](const std::string& info) { return load(material(info), R"(,"material":0)"); };
+    const auto expect_at = [](const render::UvTransform& transform, glm::vec2 uv, glm::vec2 expected) {
+        expect_near(glm::vec3(transform(uv), 0.0f), glm::vec3(expected, 0.0f));
+    };
+
+    // The extension's own example: the lower left quadrant, turned by 90 degrees clockwise.
+    Scene s = read(R"(,"extensions":{"KHR_texture_transform":{"offset":[0,1],"rotation":1.57079632679,
+        "scale":[0.5,0.5]}})");
+    for (const auto& transform : {s.materials[0].metallic_roughness_uv, s.materials[0].emission_uv}) {
+        expect_at(transform, {0, 0}, {0, 1});
+        expect_at(transform, {1, 0}, {0, 0.5f});
+        expect_at(transform, {0, 1}, {0.5f, 1});
+        expect_at(transform, {1, 1}, {0.5f, 0.5f});
+    }
+    expect_at(s.materials[0].base_color_uv, {0.3f, 0.7f}, {0.3f, 0.7f});
+
+    s = read(R"(,"extensions":{"KHR_texture_transform":{"scale":[3,-1]}})");
+    expect_at(s.materials[0].emission_uv, {0.5f, 0.25f}, {1.5f, -0.25f});
+
+    // Its texCoord overrides the texture's own, which would be another one than the base colour's.
+    s = read(R"(,"texCoord":1,"extensions":{"KHR_texture_transform":{"texCoord":0}})");
+    EXPECT_EQ(s.uvs.size(), 3u);
+    const auto refused = [&](const std::string& members) {
+        return refusal([&] { read(R"(,"extensions":{"KHR_texture_transform":{)" + members + "}}"); });
+    };
+    EXPECT_THAT(refused(R"("texCoord":1)"), HasSubstr("two sets"));
+    EXPECT_THAT(refused(R"("texCoord":"a")"), HasSubstr("texCoord"));
+    EXPECT_THAT(refused(R"("offset":[1])"), HasSubstr("'tiled': KHR_texture_transform: offset"));
+    EXPECT_THAT(refused(R"("scale":2)"), HasSubstr("scale"));
+    EXPECT_THAT(refused(R"("rotation":"half")"), HasSubstr("rotation"));
 }
 
 TEST_F(GltfFile, DefaultMaterialIsTheFormats) {

@@ -6,6 +6,7 @@
 #include <render/load_obj.hpp>
 #include <render/load_scene.hpp>
 
+#include "bitmap.hpp"
 #include "refusal.hpp"
 #include "temporary_folder.hpp"
 
@@ -81,6 +82,36 @@ TEST_F(ObjFile, MaterialsPerFace) {
     EXPECT_EQ(material(4).transmission, 1.0f);
     EXPECT_EQ(material(5).alpha, Material::Alpha::blend);
     EXPECT_EQ(material(5).base_alpha, 0.25f);
+}
+
+TEST_F(ObjFile, MapsOfOpacity) {
+    folder.write("color.bmp", bitmap({{255, 0, 0}, {0, 255, 0}}));
+    folder.write("mask.bmp", bitmap({{0, 0, 0}, {255, 255, 255}}));
+    folder.write("full.bmp", bitmap({{255, 255, 255}}));
+    folder.write("m.mtl",
+                 "newmtl leaf\nKd 1 1 1\nd 0.5\nmap_Kd color.bmp\nmap_d mask.bmp\n"
+                 "newmtl mask\nKd 1 1 1\nmap_Kd mask.bmp\nmap_d mask.bmp\n"
+                 "newmtl wall\nKd 1 1 1\nmap_d full.bmp\n");
+    const Scene s = load("mtllib m.mtl\n" + std::string(square) + "usemtl leaf\nf 1 2 3\nusemtl mask\nf 1 2 3\n" +
+                         "usemtl wall\nf 1 3 4\n");
+    ASSERT_EQ(s.materials.size(), 3u);
+    const Material& leaf = s.materials[0];
+    const Material& mask = s.materials[1];
+    EXPECT_EQ(leaf.alpha, Material::Alpha::blend);
+    EXPECT_EQ(leaf.base_alpha, 0.5f);
+    const auto texture = [&](int index) { return s.textures.at(static_cast<std::size_t>(index)); };
+    EXPECT_EQ(texture(leaf.alpha_texture).texels[0].a, 0.0f);
+    EXPECT_EQ(texture(leaf.alpha_texture).texels[1].a, 1.0f);
+    EXPECT_EQ(texture(leaf.base_color_texture).texels[0], glm::vec4(1, 0, 0, 1));
+
+    // The same file as colour and as mask is two textures.
+    EXPECT_EQ(mask.alpha, Material::Alpha::blend);
+    EXPECT_EQ(mask.alpha_texture, leaf.alpha_texture);
+    EXPECT_EQ(texture(mask.base_color_texture).texels[0], glm::vec4(0, 0, 0, 1));
+
+    EXPECT_EQ(s.materials[2].alpha, Material::Alpha::opaque) << "a mask without holes";
+    folder.write("m.mtl", "newmtl a\nmap_d gone.png\n");
+    EXPECT_THAT(refused("mtllib m.mtl\n" + std::string(square) + "usemtl a\nf 1 2 3\n"), StartsWith("gone.png: "));
 }
 
 TEST_F(ObjFile, ErrorsNameTheLine) {

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -278,6 +279,51 @@ TEST(Visibility, HonoursTheMaskOfATexture) {
     EXPECT_EQ(rays.to_point({0.5f, 0.1f, 1}, {0.5f, 0.1f, -1}), 0.0f);
     EXPECT_FALSE(rays.nearest({-0.5f, 0.1f, 1}, {0, 0, -1}).has_value());
     EXPECT_TRUE(rays.nearest({0.5f, 0.1f, 1}, {0, 0, -1}).has_value());
+}
+
+TEST(Visibility, HonoursAMaskApartFromTheColour) {
+    Stack stack;
+    Material& leaf = stack.add(0.0f);
+    leaf.alpha = Material::Alpha::blend;
+    leaf.base_alpha = 0.5f;
+    leaf.base_color_texture = 0;
+    leaf.alpha_texture = 1;
+    render::Texture texture;
+    texture.width = 2;
+    texture.height = 1;
+    texture.texels = {glm::vec4(1.0f, 1.0f, 1.0f, 0.0f), glm::vec4(1.0f)};
+    stack.scene.textures.push_back(texture);
+    std::swap(texture.texels[0], texture.texels[1]);
+    stack.scene.textures.push_back(texture);
+    stack.scene.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    const RayScene rays(stack.scene);
+    EXPECT_TRUE(rays.transmissive());
+    EXPECT_EQ(rays.to_point({-0.5f, 0.1f, 1}, {-0.5f, 0.1f, -1}), 0.5f);
+    EXPECT_EQ(rays.to_point({0.5f, 0.1f, 1}, {0.5f, 0.1f, -1}), 1.0f);
+}
+
+TEST(Surface, LooksWhereTheTextureTransformSays) {
+    Stack stack;
+    Material& material = stack.add(0.0f);
+    material.model = Material::Model::phong;
+    material.base_color = glm::vec3(1.0f);
+    material.base_color_texture = 0;
+    render::Texture texture;
+    texture.width = 2;
+    texture.height = 1;
+    texture.texels = {glm::vec4(0.25f), glm::vec4(0.75f)};
+    stack.scene.textures.push_back(texture);
+    stack.scene.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    const auto seen_at = [&](float x) {
+        return follow(stack.scene, {{x, 0.1f, 10.0f}, {0.0f, 0.0f, -1.0f}}).points.at(0).diffuse.x;
+    };
+    EXPECT_FLOAT_EQ(seen_at(-0.5f), 0.25f);
+    EXPECT_FLOAT_EQ(seen_at(0.5f), 0.75f);
+    material.base_color_uv.offset = {0.5f, 0.0f};
+    EXPECT_FLOAT_EQ(seen_at(-0.5f), 0.75f);
+    EXPECT_FLOAT_EQ(seen_at(0.5f), 0.25f);
+    material.base_color_uv = {{0.0f, 0.0f}, {0.0f, 1.0f}, {1.0f, 0.0f}};  // u and v swapped
+    EXPECT_FLOAT_EQ(seen_at(-0.5f), seen_at(0.5f));
 }
 
 }  // namespace

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <limits>
 #include <string>
 
@@ -66,6 +67,9 @@ TEST(Validate, BadMaterials) {
     EXPECT_THAT(refused([](Scene& s) { s.materials[0].roughness = nan; }), HasSubstr("roughness"));
     EXPECT_THAT(refused([](Scene& s) { s.materials[0].metallic = 2; }), HasSubstr("metallic"));
     EXPECT_THAT(refused([](Scene& s) { s.materials[0].base_color_texture = 0; }), HasSubstr("texture"));
+    EXPECT_THAT(refused([](Scene& s) { s.materials[0].alpha_texture = 0; }), HasSubstr("texture"));
+    EXPECT_THAT(refused([](Scene& s) { s.materials[0].emission_uv.offset.x = std::nanf(""); }),
+                HasSubstr("texture transform"));
 }
 
 TEST(Validate, BadLights) {

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <tiny_gltf.h>
+
+#include "scene.hpp"
+
+namespace render {
+
+/// How a glTF material addresses one of its textures.
+struct TextureUse {
+    int uv_set = 0;
+    UvTransform transform;
+};
+
+/// Of a textureInfo with these members, the extension KHR_texture_transform applied.
+/// throws: invalid_input naming the member that is no number.
+TextureUse texture_use(int tex_coord, const tinygltf::ExtensionMap& extensions);
+
+}  // namespace render
