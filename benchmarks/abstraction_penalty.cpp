@@ -231,23 +231,23 @@ private:
 
     /// Bounds the candidates that only have their parents' bounds.
     void tighten() {
-        using lightcuts::ClusterBlock;
-        Node* members[ClusterBlock::width];
+        Node* members[lightcuts::lane_count];
+        const Tree::cluster* clusters[lightcuts::lane_count];
         for (std::size_t begin = 0; begin < chosen_.size();) {
             int count = 0;
-            for (; begin < chosen_.size() && count < ClusterBlock::width; ++begin) {
+            for (; begin < chosen_.size() && count < lightcuts::lane_count; ++begin) {
                 Node& node = active_[chosen_[begin].at];
                 if (!node.bounded) members[count++] = &node;
             }
             if (count == 0) continue;
-            ClusterBlock block;
-            for (int i = 0; i < count; ++i) block.set(i, clusters_[members[i]->node], point_->position);
-            block.finish(count);
-            lightcuts::detail::lane_inverse_square(point_->material.normal, block);
+            for (int i = 0; i < count; ++i) clusters[i] = &clusters_[members[i]->node];
+            const lightcuts::ClusterBlock block(clusters, count, point_->position);
+            alignas(32) lightcuts::Lanes bound;
+            lightcuts::detail::lane_power<3>(point_->material.normal, block, bound);
             for (int i = 0; i < count; ++i) {
                 Node& node = *members[i];
                 node.bounded = true;
-                lower(node, lightcuts::detail::scale_bound(albedo_, block.bound[i]));
+                lower(node, lightcuts::detail::scale_bound(albedo_, bound[i]));
                 const double p = priority(node);
                 if (p > threshold_ && p < lightcuts::TwoStageBounds{}.doubt * threshold_) {
                     const lightcuts::ClusterView view = lightcuts::view_of(clusters_[node.node], point_->position);

@@ -155,12 +155,10 @@ TEST(Lightcut, CanBeStoppedAnywhere) {
             }
             double sum = 0.0;
             std::size_t leaves = 0;
-            for (const auto nodes : {cut.active(), cut.resting()}) {
-                for (const auto& node : nodes) {
-                    sum += static_cast<double>(node.estimate.x);
-                    leaves += tree.topology().leaf_count(node.node);
-                }
-            }
+            cut.for_each([&](const auto& node) {
+                sum += static_cast<double>(node.estimate.x);
+                leaves += tree.topology().leaf_count(node.node);
+            });
             EXPECT_NEAR(sum, result.radiance.x, 1e-6 * sum);
             EXPECT_EQ(leaves, lights.size()) << "a cut holds every light once";
         } while (cut.step());

@@ -71,9 +71,7 @@ std::vector<std::uint32_t> heap_order(Toy toy, std::size_t max_nodes) {
 
 std::vector<std::uint32_t> cut_of(const Refinement<ToyNode>& refinement) {
     std::vector<std::uint32_t> cut;
-    for (const auto nodes : {refinement.active(), refinement.resting()}) {
-        for (const ToyNode& n : nodes) cut.push_back(n.index);
-    }
+    refinement.for_each([&](const ToyNode& n) { cut.push_back(n.index); });
     std::sort(cut.begin(), cut.end());
     return cut;
 }
@@ -99,9 +97,7 @@ TEST(Refinement, OfAnyRoundsEndsAtTheSameCut) {
         refinement.run(toy, {.round_fraction = fraction});
         EXPECT_EQ(cut_of(refinement), cut_of(reference));
         EXPECT_LT(toy.batches.size(), one.batches.size());
-        for (const auto nodes : {refinement.active(), refinement.resting()}) {
-            for (const ToyNode& n : nodes) EXPECT_LE(n.priority, toy.threshold());
-        }
+        refinement.for_each([&](const ToyNode& n) { EXPECT_LE(n.priority, toy.threshold()); });
     }
 }
 
@@ -111,7 +107,8 @@ TEST(Refinement, OfARoundSplitsDownToTheFractionOfTheLargest) {
     refinement.start(toy);
     ASSERT_TRUE(refinement.step(toy, {}));  // the roots
     for (;;) {
-        std::vector<ToyNode> before(refinement.active().begin(), refinement.active().end());
+        std::vector<ToyNode> before;
+        refinement.for_each([&](const ToyNode& n) { before.push_back(n); });
         double largest = 0.0;
         for (const ToyNode& n : before) largest = std::max(largest, n.priority);
         std::vector<std::uint32_t> expected;
@@ -227,12 +224,14 @@ TEST(Refinement, SplitsInfinitiesAlongWithTheLargestFiniteInOneRound) {
 struct Tightening : Toy {
     std::vector<std::uint32_t> tightened;
 
-    void tighten(std::span<node* const> nodes) {
-        for (node* n : nodes) {
-            EXPECT_GT(n->priority, threshold()) << "only nodes above the threshold are worth it";
-            if (std::find(tightened.begin(), tightened.end(), n->index) != tightened.end()) continue;
-            tightened.push_back(n->index);
-            n->priority *= 0.1;
+    void tighten(std::span<RefinementCandidate<node>> candidates) {
+        for (RefinementCandidate<node>& candidate : candidates) {
+            node& n = *candidate.node;
+            EXPECT_EQ(n.priority, candidate.priority);
+            EXPECT_GT(n.priority, threshold()) << "only nodes above the threshold are worth it";
+            if (std::find(tightened.begin(), tightened.end(), n.index) != tightened.end()) continue;
+            tightened.push_back(n.index);
+            candidate.priority = n.priority *= 0.1;
         }
     }
 };
@@ -246,9 +245,7 @@ TEST(Refinement, TightensBeforeItSplits) {
         EXPECT_NE(std::find(problem.tightened.begin(), problem.tightened.end(), split), problem.tightened.end());
     }
     EXPECT_GT(problem.tightened.size(), problem.splits.size()) << "some are spared";
-    for (const auto nodes : {refinement.active(), refinement.resting()}) {
-        for (const ToyNode& n : nodes) EXPECT_LE(n.priority, problem.threshold());
-    }
+    refinement.for_each([&](const ToyNode& n) { EXPECT_LE(n.priority, problem.threshold()); });
 }
 
 /// Nodes of a priority below 0.02 can never be refined.
@@ -282,8 +279,10 @@ struct Swaying : Toy {
     std::size_t observed = 0;
 
     double priority(const node& n) const { return n.priority * weight; }
-    void observe(std::span<const node> a, std::span<const node> b) {
-        observed = a.size() + b.size();
+    template <class Visit>
+    void observe(const Visit& visit) {
+        observed = 0;
+        visit([this](const node&) { ++observed; });
         weight = round < weights.size() ? weights[round] : weights.back();
         ++round;
         least = std::min(least, weight);
@@ -301,9 +300,8 @@ TEST(Refinement, ForgetsNoNodeWhosePriorityGrowsAgain) {
         Refinement<ToyNode> refinement;
         refinement.run(problem, {});
         EXPECT_EQ(problem.observed, refinement.size());
-        for (const auto nodes : {refinement.active(), refinement.resting()}) {
-            for (const ToyNode& n : nodes) EXPECT_LE(problem.priority(n), problem.threshold() * (1.0 + 1e-12));
-        }
+        refinement.for_each(
+            [&](const ToyNode& n) { EXPECT_LE(problem.priority(n), problem.threshold() * (1.0 + 1e-12)); });
     }
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <glm/common.hpp>
 
 #include <lightcuts/bound/policy.hpp>
 #include <lightcuts/material/terms.hpp>
@@ -48,6 +49,18 @@ inline std::string text_of(const glm::vec3& v) {
     return out.str();
 }
 
+/// The terms of one light as a cut computes them, several at a time.
+template <class M, Light L>
+glm::vec3 terms_in_lane(const Receiver<M>& receiver, const L& light) {
+    LightBlock block;
+    block.set(0, light);
+    block.template finish<L>(1);
+    LaneSpectra<glm::vec3> terms;
+    unshadowed_terms<L>(
+        receiver, block, 1, [&](int) -> const L& { return light; }, terms);
+    return terms[0];
+}
+
 /// Checks one configuration: each stage's bound against what every light does as compiled, and against the error of
 /// standing for the cluster by any of its lights. Beside the cluster of all lights, those of the first few and of one
 /// each are bounded, by one call of `quick_many`.
@@ -72,7 +85,9 @@ void check_cluster(LawOutcome& outcome, const ClusterConfiguration& c, const std
     };
 
     std::vector<glm::vec3> terms;
-    for (const L& light : lights) terms.push_back(unshadowed_terms(receiver, light));
+    for (const L& light : lights) {
+        terms.push_back(glm::max(unshadowed_terms(receiver, light), terms_in_lane(receiver, light)));
+    }
 
     // The bound of a cluster of the lights [first, last).
     const auto check = [&](const char* name, const glm::vec3& bound, std::size_t first, std::size_t last) {

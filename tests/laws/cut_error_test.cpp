@@ -37,23 +37,23 @@ void expect_error_within_bound(const Forest& forest, const std::vector<Receiver<
                                  order_of_summation * static_cast<double>(exact.radiance[c]))
                 << where << ", channel " << c;
         }
-        EXPECT_EQ(result.cut_size, cut.active().size() + cut.resting().size()) << where;
+        std::uint32_t nodes = 0;
+        cut.for_each([&](const auto&) { ++nodes; });
+        EXPECT_EQ(result.cut_size, nodes) << where;
         EXPECT_LE(result.queries, result.cut_size) << where;
         if (options.max_cut > 0) {
             EXPECT_LE(result.cut_size, std::max(options.max_cut, forest.root_count())) << where;
         }
         if (result.stop == StopReason::converged) {
             double largest = 0.0;  // bound over total, in any channel
-            for (const auto nodes : {cut.active(), cut.resting()}) {
-                for (const auto& node : nodes) {
-                    for (int c = 0; c < 3; ++c) {
-                        if (node.bound[c] == 0.0f) continue;
-                        largest = std::max(largest,
-                                           static_cast<double>(node.bound[c]) /
-                                               static_cast<double>(result.radiance[c] + 0.1f * options.adaptation));
-                    }
+            cut.for_each([&](const auto& node) {
+                for (int c = 0; c < 3; ++c) {
+                    if (node.bound[c] == 0.0f) continue;
+                    largest = std::max(largest,
+                                       static_cast<double>(node.bound[c]) /
+                                           static_cast<double>(result.radiance[c] + 0.1f * options.adaptation));
                 }
-            }
+            });
             EXPECT_LE(largest, 1.00001 * static_cast<double>(options.error_ratio)) << where;
         } else {
             EXPECT_EQ(result.stop, StopReason::limit) << where;

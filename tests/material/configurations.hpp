@@ -7,6 +7,7 @@
 #include <glm/vec3.hpp>
 #include <lightcuts/core/box.hpp>
 #include <lightcuts/core/random.hpp>
+#include <lightcuts/material/material.hpp>
 
 namespace material_test {
 
@@ -109,6 +110,28 @@ inline lightcuts::OffsetBox random_box(Numbers& numbers, const Surface& s) {
 inline glm::vec3 as_given(const glm::dvec3& p) {
     const double largest = std::fmax(std::fabs(p.x), std::fmax(std::fabs(p.y), std::fabs(p.z)));
     return glm::normalize(glm::vec3(p / largest));
+}
+
+/// The quick bound of one box.
+template <class M>
+auto quick_bound(const M& m, const lightcuts::OffsetBox& box) {
+    lightcuts::OffsetBlock block;
+    block.set(0, glm::vec3(box.lo), glm::vec3(box.hi));
+    block.finish(1);
+    lightcuts::LaneSpectra<lightcuts::material_spectrum<M>> bounds;
+    lightcuts::cheapest_upper_bounds(m, block, bounds);
+    return bounds[0];
+}
+
+/// What `evaluate_many` returns, or its equivalent, for one direction.
+template <class M>
+auto value_in_lane(const M& m, const glm::vec3& to_light) {
+    lightcuts::LaneVectors directions;
+    directions.set(0, to_light);
+    lightcuts::detail::repeat_last(directions, 1);
+    lightcuts::LaneSpectra<lightcuts::material_spectrum<M>> values;
+    lightcuts::evaluate_lanes(m, directions, values);
+    return values[0];
 }
 
 /// Calls f(p) for points of the box: vertices, faces, interior, those nearest to the rays along `aims`, and then ever

@@ -12,6 +12,7 @@ namespace {
 
 using namespace lightcuts;
 using material_test::Numbers;
+using material_test::quick_bound;
 using material_test::Surface;
 
 /// Has no bound.
@@ -48,8 +49,7 @@ TEST(Sum, AddsValuesAndBounds) {
         const Sum sum{a, b, c};
         EXPECT_EQ(a.evaluate(o) + (b.evaluate(o) + c.evaluate(o)), sum.evaluate(o));
         EXPECT_EQ(a.upper_bound(box) + (b.upper_bound(box) + c.upper_bound(box)), sum.upper_bound(box));
-        EXPECT_EQ(a.quick_upper_bound(box) + (b.quick_upper_bound(box) + c.quick_upper_bound(box)),
-                  sum.quick_upper_bound(box));
+        EXPECT_EQ(quick_bound(a, box) + (quick_bound(b, box) + quick_bound(c, box)), quick_bound(sum, box));
     }
 }
 
@@ -74,7 +74,7 @@ TEST(Sum, VisitsTheComponentsOfNestedSumsInOrder) {
 TEST(Sum, UsesTheOnlyBoundOfAComponentWithoutAQuickOne) {
     const Sum sum{Lambert{up, 0.5f}, Capped{Unbounded{}, 3.0f}};
     const OffsetBox box{{-1, -1, 1}, {1, 1, 2}};
-    EXPECT_EQ((Lambert{up, 0.5f}.quick_upper_bound(box)) + 3.0f, sum.quick_upper_bound(box));
+    EXPECT_EQ(quick_bound(Lambert{up, 0.5f}, box) + 3.0f, quick_bound(sum, box));
 }
 
 }  // namespace

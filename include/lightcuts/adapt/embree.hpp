@@ -27,7 +27,8 @@ public:
 
     template <class R, Light L>
     bool operator()(const R& receiver, const L& light) const {
-        RTCRay ray = ray_of(receiver.shadow_origin, place_of(light), DirectionalLight<L>);
+        RTCRay ray;
+        aim(ray, receiver.shadow_origin, place_of(light), DirectionalLight<L>);
         return !occluded(ray);
     }
 
@@ -38,7 +39,7 @@ public:
             const std::size_t count = std::min(stream, queries.size() - begin);
             for (std::size_t i = 0; i < count; ++i) {
                 const VisibilityQuery& q = queries[begin + i];
-                rays[i] = ray_of(q.from, q.to, q.distant);
+                aim(rays[i], q.from, q.to, q.distant);
             }
             occluded(rays, count);
             for (std::size_t i = 0; i < count; ++i) answers[begin + i] = rays[i].tfar < 0.0f ? 0.0f : 1.0f;
@@ -46,18 +47,21 @@ public:
     }
 
 private:
-    RTCRay ray_of(const glm::vec3& from, const glm::vec3& to, bool distant) const {
+    /// Field by field: a copy of what was just written in pieces stalls.
+    void aim(RTCRay& ray, const glm::vec3& from, const glm::vec3& to, bool distant) const {
         const glm::vec3 direction = distant ? to : to - from;
-        RTCRay ray{};
         ray.org_x = from.x;
         ray.org_y = from.y;
         ray.org_z = from.z;
+        ray.tnear = 0.0f;
         ray.dir_x = direction.x;
         ray.dir_y = direction.y;
         ray.dir_z = direction.z;
+        ray.time = 0.0f;
         ray.tfar = distant ? std::numeric_limits<float>::infinity() : reach_;
         ray.mask = ~0u;
-        return ray;
+        ray.id = 0;
+        ray.flags = 0;
     }
 
 #if RTC_VERSION_MAJOR >= 4

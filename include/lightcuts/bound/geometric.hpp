@@ -7,17 +7,11 @@
 #include "../core/cone.hpp"
 #include "../core/cosine.hpp"
 #include "../core/rounding.hpp"
+#include "../light/incidence.hpp"
 #include "../tree/light_cluster.hpp"
-#include "kernel.hpp"
+#include "view.hpp"
 
 namespace lightcuts {
-
-/// True if the lights of kind `L` fall off with the squared distance.
-template <Light L>
-inline constexpr bool inverse_square = PointLight<L> && !FalloffLight<L>;
-/// True if the lights of kind `L` emit intensity * max(0, cos) about an axis.
-template <Light L>
-inline constexpr bool cosine_emission = OrientedLight<L> && !ProfiledLight<L>;
 
 namespace detail {
 
@@ -56,7 +50,7 @@ double attenuation_bound(const LightCluster<L>& cluster, const ClusterView& view
 }
 
 /// Upper bound of the emission, relative to the peak, of any light in the cluster towards the receiver.
-template <class Kernel, Light L>
+template <Light L>
 double emission_bound(const LightCluster<L>& cluster, const ClusterView& view) {
     if constexpr (!OrientedLight<L>) {
         return 1.0;
@@ -65,10 +59,8 @@ double emission_bound(const LightCluster<L>& cluster, const ClusterView& view) {
         // A cone's angle was measured from the unit vector along the stored axis; a single axis counts as it is.
         const glm::dvec3 axis = is_single(cluster.cone) ? glm::dvec3(cluster.cone.axis) : unit_axis(cluster.cone);
         if constexpr (cosine_emission<L>) {
-            const double front = detail::front_cosine<Kernel>(-axis, view);
-            if (is_single(cluster.cone)) return front;
-            const double cosine = front > 0.0 ? front : max_cosine(-axis, view.box);
-            const double widened = widen_cosine(cosine, cluster.cone);
+            if (is_single(cluster.cone)) return clamped_max_cosine(-axis, view.box);
+            const double widened = widen_cosine(max_cosine(-axis, view.box), cluster.cone);
             return widened > 0.0 ? widened : 0.0;
         } else {
             const auto to_float = [](double c) { return static_cast<float>(c < -1.0 ? -1.0 : c > 1.0 ? 1.0 : c); };
@@ -92,13 +84,13 @@ double emission_bound(const LightCluster<L>& cluster, const ClusterView& view) {
 }
 
 /// Upper bound of emission x attenuation of any light in the cluster: the geometric term [Lightcuts 2005, Eq. 3].
-template <class Kernel, Light L>
+template <Light L>
 double geometric_bound(const LightCluster<L>& cluster, const ClusterView& view) {
     if constexpr (cosine_emission<L> && inverse_square<L>) {
-        if (is_single(cluster.cone)) { return Kernel::template power<3>(-glm::dvec3(cluster.cone.axis), view); }
-        return detail::over_distance2(emission_bound<Kernel>(cluster, view), view.distance2);
+        if (is_single(cluster.cone)) return max_power<3>(-glm::dvec3(cluster.cone.axis), view.box).value;
+        return detail::over_distance2(emission_bound(cluster, view), view.distance2);
     } else if constexpr (OrientedLight<L>) {
-        const double emission = emission_bound<Kernel>(cluster, view);
+        const double emission = emission_bound(cluster, view);
         return emission > 0.0 ? emission * attenuation_bound(cluster, view) : 0.0;
     } else {
         return attenuation_bound(cluster, view);

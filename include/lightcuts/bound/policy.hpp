@@ -26,7 +26,7 @@ namespace detail {
 template <Spectrum S>
 constexpr S multiply_bounds(const S& a, const S& b) {
     const S product = a * b;
-    const double sum = channel_sum(product);
+    const float sum = rough_sum(product);
     if (sum == sum) return product;
     return make_spectrum<S>([&](int c) {
         const float x = channel(a, c), y = channel(b, c);
@@ -52,7 +52,7 @@ constexpr S scale_bound(const S& s, double bound) {
 /// the material's cosine is mere rounding, its product with the emitter's can exceed that at any one point.
 inline double with_direction_noise(double joint, const glm::dvec3& n, const glm::dvec3& u, const ClusterView& view) {
     if (joint == 0.0 && (is_behind(n, view.box) || is_behind(u, view.box))) return 0.0;
-    return joint + 4e-7 * (view.inverse_distance * view.inverse_distance);
+    return joint + 8e-7 * (view.inverse_distance * view.inverse_distance);
 }
 
 /// The joint bound of a receiver's cosine and those of emitters whose axes fill `cone`.
@@ -63,31 +63,31 @@ inline double joint_cone_bound(const glm::dvec3& n, const Cone& cone, const Clus
 }
 
 /// Bounds cosine x geometric term, for the lobe of a diffuse surface with normal `n`.
-template <class Kernel, Light L>
+template <Light L>
 double cosine_lobe_bound(const glm::dvec3& n, const LightCluster<L>& cluster, const ClusterView& view) {
     if constexpr (DirectionalLight<L>) {
-        return directional_cosine<Kernel>(n, view);
+        return clamped_max_cosine_of_directions(n, view.box);
     } else if constexpr (inverse_square<L> && !OrientedLight<L>) {
-        return Kernel::template power<3>(n, view);
+        return max_power<3>(n, view.box).value;
     } else if constexpr (inverse_square<L>) {
         if constexpr (cosine_emission<L>) {
             if (is_single(cluster.cone)) {
                 const glm::dvec3 u = -glm::dvec3(cluster.cone.axis);
-                return with_direction_noise(Kernel::joint(n, u, view), n, u, view);
+                return with_direction_noise(joint_bound(n, u, view.box), n, u, view);
             }
         }
-        const double emission = emission_bound<Kernel>(cluster, view);
-        return emission > 0.0 ? emission * Kernel::template power<3>(n, view) : 0.0;
+        const double emission = emission_bound(cluster, view);
+        return emission > 0.0 ? emission * max_power<3>(n, view.box).value : 0.0;
     } else {
-        const double cosine = front_cosine<Kernel>(n, view);
+        const double cosine = clamped_max_cosine(n, view.box);
         if (!(cosine > 0.0)) return 0.0;
-        const double geometric = geometric_bound<Kernel>(cluster, view);
+        const double geometric = geometric_bound(cluster, view);
         return geometric > 0.0 ? cosine * geometric : 0.0;
     }
 }
 
 /// The product of the factors' bounds.
-template <class Kernel, class M, Light L>
+template <class M, Light L>
 material_spectrum<M> material_bound(const M& material, const LightCluster<L>& cluster, const ClusterView& view) {
     static_assert(
         BoundedMaterial<M> || CompositeMaterial<M> || CosineLobeMaterial<M>,
@@ -96,76 +96,60 @@ material_spectrum<M> material_bound(const M& material, const LightCluster<L>& cl
     using S = material_spectrum<M>;
     if constexpr (CompositeMaterial<M>) {
         S sum{};
-        material.for_each_component([&](const auto& part) { sum = sum + material_bound<Kernel>(part, cluster, view); });
+        material.for_each_component([&](const auto& part) { sum = sum + material_bound(part, cluster, view); });
         return sum;
     } else if constexpr (CosineLobeMaterial<M>) {
         const auto lobe = material.cosine_lobe();
-        return scale_bound(S(lobe.scale), cosine_lobe_bound<Kernel>(glm::dvec3(lobe.normal), cluster, view));
+        return scale_bound(S(lobe.scale), cosine_lobe_bound(glm::dvec3(lobe.normal), cluster, view));
     } else if constexpr (BoundedMaterial<M>) {
-        const double geometric = geometric_bound<Kernel>(cluster, view);
+        const double geometric = geometric_bound(cluster, view);
         if (!(geometric > 0.0)) return S{};
-        if constexpr (std::same_as<Kernel, QuickKernel>) {
-            return scale_bound(S(cheapest_upper_bound(material, view.box)), geometric);
-        } else {
-            return scale_bound(S(material.upper_bound(view.box)), geometric);
-        }
+        return scale_bound(S(material.upper_bound(view.box)), geometric);
     }
 }
 
-/// True if ClusterBlock has vector code for lights of kind `L`.
-template <Light L>
-inline constexpr bool has_lanes = DirectionalLight<L> ||
-                                  (inverse_square<L> && (!OrientedLight<L> || cosine_emission<L>));
-
-/// The box that a material is asked about.
-template <Light L>
-OffsetBox material_box(const LightCluster<L>& cluster, const glm::vec3& point) {
-    const glm::dvec3 origin = DirectionalLight<L> ? glm::dvec3(0.0) : glm::dvec3(point);
-    return {glm::dvec3(cluster.box.lo) - origin, glm::dvec3(cluster.box.hi) - origin};
-}
-
-/// Adds `material_bound<QuickKernel>` of up to ClusterBlock::width clusters to `units`, in vector code where the kinds
-/// of material and light allow it.
+/// Adds bounds of up to `lane_count` clusters to `units`.
 template <class M, Light L>
 void add_block_bound(const M& material, const LightCluster<L>* const* clusters, int count, const glm::vec3& point,
                      ClusterBlock& block, material_spectrum<M>* units) {
+    static_assert(
+        BoundedMaterial<M> || CompositeMaterial<M> || CosineLobeMaterial<M>,
+        "a material needs upper_bound(offsets) const, which returns the spectrum that evaluate(to_light) does; "
+        "or a stated cap: Capped{material, cap}");
     using S = material_spectrum<M>;
     if constexpr (CompositeMaterial<M>) {
         material.for_each_component(
             [&](const auto& part) { add_block_bound(part, clusters, count, point, block, units); });
-    } else if constexpr (!has_lanes<L>) {
-        for (int i = 0; i < count; ++i) {
-            units[i] = units[i] + material_bound<QuickKernel>(material, *clusters[i], view_of(*clusters[i], point));
-        }
     } else if constexpr (CosineLobeMaterial<M>) {
+        alignas(32) Lanes bound;
         const auto lobe = material.cosine_lobe();
-        if constexpr (DirectionalLight<L>) {
-            lane_directional(lobe.normal, block);
-        } else if constexpr (!OrientedLight<L>) {
-            lane_inverse_square(lobe.normal, block);
+        lane_cosine_lobe(lobe.normal, clusters, count, point, block, bound);
+        for (int i = 0; i < count; ++i) units[i] = units[i] + scale_bound(S(lobe.scale), bound[i]);
+    } else if constexpr (BoundedMaterial<M>) {
+        alignas(32) Lanes geometric;
+        lane_geometric(clusters, count, point, block, geometric);
+        if constexpr (QuicklyBoundedMaterial<M>) {
+            LaneSpectra<S> reflected;
+            material.quick_upper_bounds(block, reflected);
+            for (int i = 0; i < count; ++i) {
+                const S& r = reflected[static_cast<std::size_t>(i)];
+                if (geometric[i] > 0.0f) units[i] = units[i] + scale_bound(r, geometric[i]);
+            }
         } else {
-            lane_oriented(lobe.normal, block);
-        }
-        for (int i = 0; i < count; ++i) units[i] = units[i] + scale_bound(S(lobe.scale), block.bound[i]);
-    } else {
-        if constexpr (PointLight<L>) lane_geometric<OrientedLight<L>>(block);
-        for (int i = 0; i < count; ++i) {
-            const float geometric = DirectionalLight<L> ? 1.0f : block.geometric[i];
-            if (!(geometric > 0.0f)) continue;
-            const S reflected = cheapest_upper_bound(material, material_box(*clusters[i], point));
-            units[i] = units[i] + scale_bound(reflected, geometric);
+            for (int i = 0; i < count; ++i) {
+                if (!(geometric[i] > 0.0f)) continue;
+                const OffsetBox box = view_of(*clusters[i], point).box;
+                units[i] = units[i] + scale_bound(S(material.upper_bound(box)), geometric[i]);
+            }
         }
     }
 }
 
+/// Bounds of up to `lane_count` clusters of one kind, without iteration, in vector code.
 template <class M, Light L>
 void block_bound(const M& material, const LightCluster<L>* const* clusters, int count, const glm::vec3& point,
                  material_spectrum<M>* units) {
-    ClusterBlock block;
-    if constexpr (has_lanes<L>) {
-        for (int i = 0; i < count; ++i) block.set(i, *clusters[i], point);
-        block.finish(count);
-    }
+    ClusterBlock block(clusters, count, point);
     for (int i = 0; i < count; ++i) units[i] = {};
     add_block_bound(material, clusters, count, point, block, units);
 }
@@ -183,7 +167,7 @@ material_spectrum<M> joint_material_bound(const M& material, const LightCluster<
         const auto lobe = material.cosine_lobe();
         return scale_bound(S(lobe.scale), joint_cone_bound(glm::dvec3(lobe.normal), cluster.cone, view));
     } else {
-        return material_bound<ExactKernel>(material, cluster, view);
+        return material_bound(material, cluster, view);
     }
 }
 
@@ -195,7 +179,7 @@ struct SeparateBounds {
 
     template <class M, Light L>
     material_spectrum<M> quick(const M& material, const LightCluster<L>& cluster, const glm::vec3& point) const {
-        return detail::material_bound<ExactKernel>(material, cluster, view_of(cluster, point));
+        return detail::material_bound(material, cluster, view_of(cluster, point));
     }
 };
 
@@ -209,15 +193,18 @@ struct TwoStageBounds {
 
     template <class M, Light L>
     material_spectrum<M> quick(const M& material, const LightCluster<L>& cluster, const glm::vec3& point) const {
-        return detail::material_bound<QuickKernel>(material, cluster, view_of(cluster, point));
+        const LightCluster<L>* const one = &cluster;
+        material_spectrum<M> unit;
+        detail::block_bound(material, &one, 1, point, &unit);
+        return unit;
     }
 
     /// `quick` of several clusters of one kind: units[i] for *clusters[i].
     template <class M, Light L>
     void quick_many(const M& material, const glm::vec3& point, const LightCluster<L>* const* clusters,
                     std::size_t count, material_spectrum<M>* units) const {
-        for (std::size_t begin = 0; begin < count; begin += ClusterBlock::width) {
-            const std::size_t lanes = count - begin < ClusterBlock::width ? count - begin : ClusterBlock::width;
+        for (std::size_t begin = 0; begin < count; begin += std::size_t{lane_count}) {
+            const std::size_t lanes = count - begin < std::size_t{lane_count} ? count - begin : std::size_t{lane_count};
             detail::block_bound(material, clusters + begin, static_cast<int>(lanes), point, units + begin);
         }
     }

@@ -11,14 +11,10 @@
 namespace lightcuts {
 
 /// A cluster's lights as a receiver sees them: the box of their offsets, or of the directions towards distant lights,
-/// and what every quick bound needs of it. Widened by the float rounding of the directions that materials are given,
+/// and how near they are. Widened by the float rounding of the directions that materials are given,
 /// so that bounds over the box hold for what `evaluate` returns; zeros stay zeros.
 struct ClusterView {
     OffsetBox box;
-    glm::dvec3 centre;
-    glm::dvec3 half;          ///< half of the box's edges
-    glm::dvec3 reach;         ///< largest |coordinate|
-    double centre2;           ///< squared distance of the centre
     double distance2;         ///< lower bound of the squared distance; 0 if the box touches the receiver
     double inverse_distance;  ///< 1 / sqrt(distance2), infinite if that is 0
 };
@@ -29,17 +25,11 @@ ClusterView view_of(const LightCluster<L>& cluster, const glm::vec3& point) {
     const glm::dvec3 origin = DirectionalLight<L> ? glm::dvec3(0.0) : glm::dvec3(point);
     glm::dvec3 lo = glm::dvec3(cluster.box.lo) - origin;
     glm::dvec3 hi = glm::dvec3(cluster.box.hi) - origin;
-    constexpr double r = 8.0 * 0x1p-24;
+    constexpr double r = 16.0 * 0x1p-24;
     lo -= r * glm::dvec3(std::fabs(lo.x), std::fabs(lo.y), std::fabs(lo.z));
     hi += r * glm::dvec3(std::fabs(hi.x), std::fabs(hi.y), std::fabs(hi.z));
     ClusterView view;
     view.box = {lo, hi};
-    view.centre = 0.5 * (lo + hi);
-    view.half = 0.5 * (hi - lo);
-    const glm::dvec3 away(std::fabs(view.centre.x), std::fabs(view.centre.y), std::fabs(view.centre.z));
-    view.reach = away + view.half;
-    view.centre2 = detail::dot(view.centre, view.centre);
-    // Not from the centre, whose rounding could hide that the box touches the receiver.
     view.distance2 = min_distance2(view.box);
     view.inverse_distance = 1.0 / std::sqrt(view.distance2);
     return view;

@@ -97,10 +97,23 @@ constexpr bool is_black(const S& s) {
     return true;
 }
 
+namespace detail {
+
+/// Finite if every channel is, with room to spare; infinite or NaN if one is.
+template <Spectrum S>
+constexpr float rough_sum(const S& s) {
+    float sum = channel(s, 0);
+    for (int i = 1; i < channels_of<S>; ++i) sum += channel(s, i);
+    return sum;
+}
+
+}  // namespace detail
+
 /// `s` with no channel above the largest float, so that a product with zero stays zero.
 template <Spectrum S>
 constexpr S finite(const S& s) {
     constexpr float largest = std::numeric_limits<float>::max();
+    if (detail::rough_sum(s) <= largest) return s;
     return make_spectrum<S>([&](int i) {
         const float c = channel(s, i);
         return c < largest ? c : largest;
@@ -111,8 +124,7 @@ constexpr S finite(const S& s) {
 template <Spectrum S>
 constexpr S finite_product(const S& a, const S& b) {
     const S product = a * b;
-    const double sum = channel_sum(product);
-    if (sum <= static_cast<double>(std::numeric_limits<float>::max())) return product;
+    if (detail::rough_sum(product) <= std::numeric_limits<float>::max()) return product;
     return make_spectrum<S>([&](int i) {
         constexpr float largest = std::numeric_limits<float>::max();
         const float x = channel(a, i), y = channel(b, i);

@@ -52,14 +52,12 @@ RefinementOptions refinement_options(const Forest& forest, const LightcutOptions
 template <Spectrum S>
 CutResult<S> cut_result(const Refinement<CutNode<S>>& refinement, const CutTotals<S>& totals) {
     typename CutTotals<S>::Sums radiance{}, bound{};
-    for (const std::span<const CutNode<S>> nodes : {refinement.resting(), refinement.active()}) {
-        for (const CutNode<S>& n : nodes) {
-            for (int c = 0; c < channels_of<S>; ++c) {
-                radiance[static_cast<std::size_t>(c)] += static_cast<double>(channel(n.estimate, c));
-                bound[static_cast<std::size_t>(c)] += static_cast<double>(channel(n.bound, c));
-            }
+    refinement.for_each([&](const CutNode<S>& n) {
+        for (int c = 0; c < channels_of<S>; ++c) {
+            radiance[static_cast<std::size_t>(c)] += static_cast<double>(channel(n.estimate, c));
+            bound[static_cast<std::size_t>(c)] += static_cast<double>(channel(n.bound, c));
         }
-    }
+    });
     CutResult<S> result;
     result.radiance = finite(make_spectrum<S>([&](int c) { return radiance[static_cast<std::size_t>(c)]; }));
     result.error_bound = make_spectrum<S>([&](int c) { return round_up(bound[static_cast<std::size_t>(c)]); });
@@ -102,9 +100,11 @@ public:
     /// The estimate from the cut as it is.
     CutResult<S> result() const { return detail::cut_result(refinement_, totals_); }
 
-    /// The cut, in two parts.
-    std::span<const CutNode<S>> active() const { return refinement_.active(); }
-    std::span<const CutNode<S>> resting() const { return refinement_.resting(); }
+    /// Calls `f(node)` for each CutNode of the cut, in no particular order.
+    template <class F>
+    void for_each(F&& f) const {
+        refinement_.for_each(f);
+    }
 
 private:
     auto problem() {
@@ -115,6 +115,7 @@ private:
     template <class P>
     void evaluate_fresh(P& p) {
         if constexpr (BatchedOracle<Oracle>) {
+            p.request(refinement_.fresh());
             answers_.resize(queries_.size());
             if (!queries_.empty()) oracle_.many(std::span<const VisibilityQuery>(queries_), std::span(answers_));
             p.receive(refinement_.fresh(), std::span<const float>(answers_));
@@ -175,6 +176,7 @@ void shade_in_lock_step(const Forest& forest, std::span<const Receiver<M>> recei
         auto& slot = scratch.slots[i];
         auto problem = problem_of(i, slot);
         slot.refinement.start(problem);
+        problem.request(slot.refinement.fresh());
         slot.running = true;
     }
     for (bool any = !receivers.empty(); any;) {
@@ -194,8 +196,12 @@ void shade_in_lock_step(const Forest& forest, std::span<const Receiver<M>> recei
             answers = problem.receive(slot.refinement.fresh(), answers);
             slot.refinement.absorb(problem);
             slot.running = slot.refinement.split(problem, refinement);
-            any = any || slot.running;
-            if (!slot.running) results[i] = cut_result(slot.refinement, slot.totals);
+            if (slot.running) {
+                problem.request(slot.refinement.fresh());
+                any = true;
+            } else {
+                results[i] = cut_result(slot.refinement, slot.totals);
+            }
         }
     }
 }

@@ -27,7 +27,7 @@ struct CutNode {
     S bound{};                         ///< upper bound of the cluster's error; 0 for a single light
     std::uint8_t kind = 0;             ///< tree of the forest
     bool bounded = false;              ///< `unit_bound` is the cluster's own
-    bool queried = false;              ///< `terms` waits for the answer to a shadow ray
+    bool queried = false;              ///< `terms` waits for the representative, or for its shadow ray
 };
 
 /// Radiance sums of one receiver's cut, in double.
@@ -66,6 +66,7 @@ public:
 
     void roots(std::vector<node>& out) {
         totals_ = {};
+        totals_.weight.fill(darkest);
         forest_.for_each([&](std::uint32_t kind, const auto& tree) {
             if (!tree.empty()) make_node(tree, kind, tree.topology().root(), unbounded(), out);
         });
@@ -84,25 +85,46 @@ public:
     }
 
     /// Replaces bounds inherited from parents by the clusters' own. Most clusters on a final cut never need one.
-    void tighten(std::span<node* const> nodes) {
-        for (std::size_t begin = 0; begin < nodes.size();) {
-            if (nodes[begin]->bounded) {
+    void tighten(std::span<RefinementCandidate<node>> candidates) {
+        for (std::size_t begin = 0; begin < candidates.size();) {
+            if (candidates[begin].node->bounded) {
                 ++begin;
                 continue;
             }
             // Step 1: collect clusters of one kind.
-            std::array<node*, batch> members;
+            std::array<RefinementCandidate<node>*, lane_count> members;
             std::size_t count = 0;
-            const std::uint8_t kind = nodes[begin]->kind;
-            for (; begin < nodes.size() && count < batch && nodes[begin]->kind == kind; ++begin) {
-                if (!nodes[begin]->bounded) members[count++] = nodes[begin];
+            const std::uint8_t kind = candidates[begin].node->kind;
+            for (; begin < candidates.size() && count < members.size() && candidates[begin].node->kind == kind;
+                 ++begin) {
+                if (!candidates[begin].node->bounded) members[count++] = &candidates[begin];
             }
+            // Step 2: bound them side by side.
             forest_.visit(kind, [&](const auto& tree) { bound_nodes(tree, std::span(members).first(count)); });
+        }
+    }
+
+    /// Finds the terms of the representatives that are not shared with a parent, shadows apart; a batched oracle's
+    /// queries go to the caller's list.
+    void request(std::span<node> fresh) {
+        for (std::size_t begin = 0; begin < fresh.size();) {
+            if (!fresh[begin].queried) {
+                ++begin;
+                continue;
+            }
+            std::array<node*, lane_count> members;
+            std::size_t count = 0;
+            const std::uint8_t kind = fresh[begin].kind;
+            for (; begin < fresh.size() && count < members.size() && fresh[begin].kind == kind; ++begin) {
+                if (fresh[begin].queried) members[count++] = &fresh[begin];
+            }
+            forest_.visit(kind, [&](const auto& tree) { request_nodes(tree, std::span(members).first(count)); });
         }
     }
 
     /// Traces the shadow rays of new nodes one by one.
     void evaluate(std::span<node> fresh) {
+        request(fresh);
         for (node& n : fresh) {
             if (n.queried) {
                 receive(n, forest_.visit(n.kind, [&](const auto& tree) {
@@ -128,7 +150,8 @@ public:
 
     bool settled(const node& n) const { return is_black(n.bound); }
 
-    void observe(std::span<const node> active, std::span<const node> resting) {
+    template <class Visit>
+    void observe(const Visit& visit) {
         // Differences of a sum that was once much larger are noise.
         constexpr double cancellation = 1e6;
         double smallest = totals_.total[0];
@@ -136,13 +159,12 @@ public:
         if (!(totals_.largest <= cancellation * smallest)) {
             totals_.total = {};
             totals_.largest = 0.0;
-            for (const node& n : active) add(n.estimate, 1.0);
-            for (const node& n : resting) add(n.estimate, 1.0);
+            visit([this](const node& n) { add(n.estimate, 1.0); });
         }
         for (std::size_t c = 0; c < totals_.total.size(); ++c) {
             const double reference = totals_.total[c] + 0.1 * static_cast<double>(options_.adaptation);
             // Against darkness every bound is too large, and larger bounds are refined first.
-            totals_.weight[c] = reference > 1e-150 ? 1.0 / reference : 1e150;
+            totals_.weight[c] = reference * darkest > 1.0 ? 1.0 / reference : darkest;
             totals_.least[c] = totals_.weight[c] < totals_.least[c] ? totals_.weight[c] : totals_.least[c];
         }
     }
@@ -178,7 +200,7 @@ public:
     }
 
 private:
-    static constexpr std::size_t batch = 16;
+    static constexpr double darkest = 1e150;  ///< weight of bounds where no light has arrived
 
     static S unbounded() {
         return make_spectrum<S>([](int) { return std::numeric_limits<float>::infinity(); });
@@ -204,6 +226,7 @@ private:
     void make_node(const Tree& tree, std::uint32_t kind, std::uint32_t index, const S& unit_bound,
                    std::vector<node>& out) {
         node& n = add_node(tree, kind, index, unit_bound, out);
+        n.queried = true;
         if (tree.topology().is_leaf(index)) {
             n.representative = index;
         } else {
@@ -212,23 +235,45 @@ private:
                                              : hash_keys(options_.seed, receiver_.id, kind, index);
             n.representative = tree.representatives().draw(index, choice);
         }
-        const std::uint32_t item = tree.topology().item(n.representative);
-        const auto& light = tree.lights()[item];
-        n.terms = unshadowed_terms(receiver_, light);
-        if (is_black(n.terms)) return;
-        n.estimate = finite_product(n.terms, tree.clusters()[index].intensity);
-        if constexpr (std::same_as<Oracle, AlwaysVisible>) return;
-        n.queried = true;
-        ++totals_.queries;
-        if constexpr (BatchedOracle<Oracle>) {
-            using L = typename Tree::light_type;
-            VisibilityQuery& query = queries_.emplace_back();
-            query.from = receiver_.shadow_origin;
-            query.receiver = receiver_.id;
-            query.to = place_of(light);
-            query.light = item;
-            query.kind = kind;
-            query.distant = DirectionalLight<L>;
+    }
+
+    template <class Tree>
+    void request_nodes(const Tree& tree, std::span<node* const> nodes) {
+        using L = typename Tree::light_type;
+        LightBlock lights;
+        LaneSpectra<S> terms;
+        const auto light_of = [&](int i) -> const L& {
+            return tree.lights()[tree.topology().item(nodes[static_cast<std::size_t>(i)]->representative)];
+        };
+        const int count = static_cast<int>(nodes.size());
+        for (int i = 0; i < count; ++i) {
+            const auto& leaf = tree.clusters()[nodes[static_cast<std::size_t>(i)]->representative];
+            lights.place.set(i, leaf.box.lo);
+            if constexpr (OrientedLight<L>) lights.axis.set(i, leaf.cone.axis);
+        }
+        lights.template finish<L>(count);
+        unshadowed_terms<L>(receiver_, lights, count, light_of, terms);
+        for (int i = 0; i < count; ++i) {
+            node& n = *nodes[static_cast<std::size_t>(i)];
+            n.terms = terms[static_cast<std::size_t>(i)];
+            n.queried = !is_black(n.terms);
+            if (!n.queried) continue;
+            n.estimate = finite_product(n.terms, tree.clusters()[n.node].intensity);
+            if constexpr (std::same_as<Oracle, AlwaysVisible>) {
+                n.queried = false;
+                continue;
+            }
+            ++totals_.queries;
+            if constexpr (BatchedOracle<Oracle>) {
+                // In place: what is written in pieces is slow to copy at once.
+                VisibilityQuery& query = queries_.emplace_back();
+                query.from = receiver_.shadow_origin;
+                query.receiver = receiver_.id;
+                query.to = lights.place.at(i);
+                query.light = tree.topology().item(n.representative);
+                query.kind = n.kind;
+                query.distant = DirectionalLight<L>;
+            }
         }
     }
 
@@ -242,30 +287,33 @@ private:
     }
 
     template <class Tree>
-    void bound_nodes(const Tree& tree, std::span<node* const> nodes) const {
+    void bound_nodes(const Tree& tree, std::span<RefinementCandidate<node>* const> candidates) const {
         using Cluster = typename Tree::cluster;
-        std::array<const Cluster*, batch> clusters;
-        std::array<S, batch> units;
-        for (std::size_t i = 0; i < nodes.size(); ++i) clusters[i] = &tree.clusters()[nodes[i]->node];
+        std::array<const Cluster*, lane_count> clusters;
+        std::array<S, lane_count> units;
+        const std::size_t count = candidates.size();
+        for (std::size_t i = 0; i < count; ++i) clusters[i] = &tree.clusters()[candidates[i]->node->node];
         if constexpr (requires {
-                          policy_.quick_many(receiver_.material, receiver_.position, clusters.data(), nodes.size(),
+                          policy_.quick_many(receiver_.material, receiver_.position, clusters.data(), count,
                                              units.data());
                       }) {
-            policy_.quick_many(receiver_.material, receiver_.position, clusters.data(), nodes.size(), units.data());
+            policy_.quick_many(receiver_.material, receiver_.position, clusters.data(), count, units.data());
         } else {
-            for (std::size_t i = 0; i < nodes.size(); ++i) {
+            for (std::size_t i = 0; i < count; ++i) {
                 units[i] = policy_.quick(receiver_.material, *clusters[i], receiver_.position);
             }
         }
-        for (std::size_t i = 0; i < nodes.size(); ++i) {
-            node& n = *nodes[i];
+        for (std::size_t i = 0; i < count; ++i) {
+            node& n = *candidates[i]->node;
+            double& p = candidates[i]->priority;
             lower_bound(n, units[i], *clusters[i]);
             n.bounded = true;
+            p = priority(n);
             if constexpr (TwoStagePolicy<Policy>) {
                 // The dear bound is worth it only where it may change the decision.
-                const double p = priority(n);
                 if (p > threshold() && p < policy_.doubt * threshold()) {
                     lower_bound(n, policy_.tight(receiver_.material, *clusters[i], receiver_.position), *clusters[i]);
+                    p = priority(n);
                 }
             }
         }
@@ -281,7 +329,6 @@ private:
     }
 
     void receive(node& n, float visibility) const {
-        n.queried = false;
         if (visibility == 1.0f) return;
         n.terms = n.terms * visibility;
         n.estimate = n.estimate * visibility;

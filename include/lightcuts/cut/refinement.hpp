@@ -18,15 +18,16 @@ namespace lightcuts {
 /// - `priority(node)`: not negative, possibly infinite, never NaN. Use bounds, never what an estimate happened to
 ///   show: that biases sums.
 /// - `threshold()`: nodes of a priority above it are refined. May change between rounds.
-/// - `split(node, out)`: appends the two nodes that replace it.
+/// - `split(node, out)`: appends the two nodes that replace it. `node` lies in `out`, which has room.
 /// - `before(a, b)`: a total order that breaks ties of priority, infinite ones above all.
 ///
 /// Optional:
 /// - `settled(node)`: true if the node can never be refined; the engine then looks at it no more.
-/// - `tighten(span of pointers to nodes)`: lowers priorities where it pays, before any of the nodes is split. The nodes
-///   are all those above the threshold; a node may come again.
-/// - `observe(span, span)`: called before each round with the whole frontier in two parts, so that the problem can sum
-///   up where it has lost count.
+/// - `tighten(span of candidates)`: lowers priorities where it pays, before any of the nodes is split, in the nodes and
+///   in the candidates. These are all nodes above the threshold; a node may come again.
+/// - `observe(visit)`: called before each round; `visit(f)` calls f(node) for the whole frontier, so that the problem
+/// can
+///   sum up where it has lost count.
 /// - `mark()` and `growth()`: the second bounds the factor by which any priority has grown since the first was called.
 ///   Spares the engine from looking at nodes far below the threshold in every round.
 template <class P>
@@ -55,6 +56,14 @@ struct RefinementOptions {
     double round_fraction = 0.1;
 };
 
+/// A node above the threshold.
+template <class Node>
+struct RefinementCandidate {
+    Node* node;
+    std::uint32_t at;  ///< its place among the active nodes
+    double priority;
+};
+
 /// The one refinement engine: a frontier of nodes, refined in rounds until no priority is above the threshold or
 /// the limit is reached, which is never overshot. Resumable: `step` performs one round. Its two halves, `split` and
 /// `absorb`, are for callers that evaluate the new nodes of many refinements in one batch.
@@ -62,30 +71,33 @@ struct RefinementOptions {
 template <class Node>
 class Refinement {
 public:
+    using Candidate = RefinementCandidate<Node>;
+
     /// Starts afresh; the roots then wait in `fresh` for evaluation.
     template <RefinementProblem P>
     void start(P& problem) {
+        nodes_.clear();
         active_.clear();
         resting_.clear();
-        fresh_.clear();
+        absorbed_ = 0;
         stop_ = StopReason::unfinished;
-        problem.roots(fresh_);
+        problem.roots(nodes_);
         if constexpr (tells_growth<P>) problem.mark();
     }
 
-    /// First half of a round: moves the nodes to be refined out of the frontier and their children into `fresh`.
+    /// First half of a round: takes the nodes to be refined out of the frontier and puts their children into `fresh`.
     /// Returns false, leaving `fresh` empty, when the refinement has ended. pre: the last `fresh` was absorbed.
     template <RefinementProblem P>
     bool split(P& problem, const RefinementOptions& options) {
-        if constexpr (requires { problem.observe(std::span<const Node>(), std::span<const Node>()); }) {
-            problem.observe(std::span<const Node>(active_), std::span<const Node>(resting_));
-        }
+        const auto visit = [this](auto&& f) { for_each(f); };
+        if constexpr (requires { problem.observe(visit); }) problem.observe(visit);
         if constexpr (tells_growth<P>) {
             if (problem.growth() * rest_below > 1.0) {
                 wake(problem);
                 problem.mark();
             }
         }
+        make_room();
         if (!select(problem, options)) {
             stop_ = StopReason::converged;
             return false;
@@ -103,20 +115,19 @@ public:
     /// Second half of a round: evaluated `fresh` nodes join the frontier.
     template <RefinementProblem P>
     void absorb(const P& problem) {
-        for (const Node& node : fresh_) (is_settled(problem, node) ? resting_ : active_).push_back(node);
-        fresh_.clear();
+        const double rest = rest_below * problem.threshold();
+        for (; absorbed_ < nodes_.size(); ++absorbed_) {
+            const Node& node = nodes_[absorbed_];
+            const bool rests = is_settled(problem, node) || (tells_growth<P> && problem.priority(node) <= rest);
+            (rests ? resting_ : active_).push_back(static_cast<std::uint32_t>(absorbed_));
+        }
     }
 
     /// One round. Returns false, having done nothing, when the refinement has ended.
     template <RefinementProblem P>
     bool step(P& problem, const RefinementOptions& options) {
-        if (!fresh_.empty()) {  // the roots
-            problem.evaluate(std::span(fresh_));
-            absorb(problem);
-            return true;
-        }
-        if (!split(problem, options)) return false;
-        problem.evaluate(std::span(fresh_));
+        if (fresh().empty() && !split(problem, options)) return false;  // not empty: the roots
+        problem.evaluate(fresh());
         absorb(problem);
         return true;
     }
@@ -129,45 +140,36 @@ public:
     }
 
     /// Nodes that wait for evaluation.
-    std::span<Node> fresh() { return fresh_; }
-    /// The cut, in two parts.
-    std::span<const Node> active() const { return active_; }
-    std::span<const Node> resting() const { return resting_; }
+    std::span<Node> fresh() { return std::span(nodes_).subspan(absorbed_); }
+    /// Calls `f(node)` for each node of the cut, in no particular order.
+    template <class F>
+    void for_each(F&& f) const {
+        for (const std::uint32_t i : resting_) f(nodes_[i]);
+        for (const std::uint32_t i : active_) f(nodes_[i]);
+    }
     /// Number of nodes in the cut.
     std::size_t size() const { return active_.size() + resting_.size(); }
     StopReason stop_reason() const { return stop_; }
 
 private:
-    struct Candidate {
-        std::uint32_t at;
-        double priority;
-    };
-
     /// Fills `chosen_` with what a round would split, in frontier order; false if nothing is above the threshold.
     template <class P>
     bool select(P& problem, const RefinementOptions& options) {
         const double threshold = problem.threshold();
+        const double rest = tells_growth<P> ? rest_below * threshold : -1.0;
         chosen_.clear();
         std::size_t kept = 0;
-        for (std::size_t i = 0; i < active_.size(); ++i) {
-            const double priority = problem.priority(active_[i]);
-            if constexpr (tells_growth<P>) {
-                if (priority <= rest_below * threshold) {
-                    resting_.push_back(active_[i]);
-                    continue;
-                }
+        for (const std::uint32_t i : active_) {
+            const double priority = problem.priority(nodes_[i]);
+            if (priority <= rest) {
+                resting_.push_back(i);
+                continue;
             }
-            if (priority > threshold) chosen_.push_back({static_cast<std::uint32_t>(kept), priority});
-            if (kept != i) active_[kept] = active_[i];
-            ++kept;
+            if (priority > threshold) chosen_.push_back({&nodes_[i], static_cast<std::uint32_t>(kept), priority});
+            active_[kept++] = i;
         }
-        active_.erase(active_.begin() + static_cast<std::ptrdiff_t>(kept), active_.end());
-        if constexpr (requires { problem.tighten(std::span<Node* const>()); }) {
-            pointers_.clear();
-            for (const Candidate& candidate : chosen_) pointers_.push_back(&active_[candidate.at]);
-            problem.tighten(std::span<Node* const>(pointers_));
-            for (Candidate& candidate : chosen_) candidate.priority = problem.priority(active_[candidate.at]);
-        }
+        active_.resize(kept);
+        if constexpr (requires { problem.tighten(std::span<Candidate>()); }) problem.tighten(std::span(chosen_));
         keep_top(options.round_fraction, threshold);
         return !chosen_.empty();
     }
@@ -190,7 +192,7 @@ private:
     void keep_largest(const P& problem, std::size_t count) {
         const auto larger = [&](const Candidate& a, const Candidate& b) {
             if (a.priority != b.priority) return a.priority > b.priority;
-            return problem.before(active_[a.at], active_[b.at]);
+            return problem.before(*a.node, *b.node);
         };
         const auto middle = chosen_.begin() + static_cast<std::ptrdiff_t>(count);
         std::nth_element(chosen_.begin(), middle, chosen_.end(), larger);
@@ -198,9 +200,15 @@ private:
         std::sort(chosen_.begin(), chosen_.end(), [](const Candidate& a, const Candidate& b) { return a.at < b.at; });
     }
 
+    /// Children must not move the nodes that candidates point to.
+    void make_room() {
+        const std::size_t most = nodes_.size() + 2 * active_.size();
+        if (most > nodes_.capacity()) nodes_.reserve(2 * most);
+    }
+
     template <class P>
     void replace_chosen(P& problem) {
-        for (const Candidate& candidate : chosen_) problem.split(active_[candidate.at], fresh_);
+        for (const Candidate& candidate : chosen_) problem.split(*candidate.node, nodes_);
         for (std::size_t c = chosen_.size(); c-- > 0;) {
             active_[chosen_[c].at] = active_.back();
             active_.pop_back();
@@ -211,14 +219,14 @@ private:
     template <class P>
     void wake(const P& problem) {
         std::size_t kept = 0;
-        for (const Node& node : resting_) {
-            if (is_settled(problem, node)) {
-                resting_[kept++] = node;
+        for (const std::uint32_t i : resting_) {
+            if (is_settled(problem, nodes_[i])) {
+                resting_[kept++] = i;
             } else {
-                active_.push_back(node);
+                active_.push_back(i);
             }
         }
-        resting_.erase(resting_.begin() + static_cast<std::ptrdiff_t>(kept), resting_.end());
+        resting_.resize(kept);
     }
 
     template <class P>
@@ -236,11 +244,11 @@ private:
     /// Nodes below this fraction of the threshold rest until priorities have grown by its inverse.
     static constexpr double rest_below = 0.9;
 
-    std::vector<Node> active_;
-    std::vector<Node> resting_;  ///< settled, or far below the threshold
-    std::vector<Node> fresh_;
+    std::vector<Node> nodes_;             ///< all since the start, refined ones too: nodes are never moved
+    std::vector<std::uint32_t> active_;   ///< indices of the frontier
+    std::vector<std::uint32_t> resting_;  ///< of the rest of it: settled, or far below the threshold
+    std::size_t absorbed_ = 0;            ///< nodes behind are fresh
     std::vector<Candidate> chosen_;
-    std::vector<Node*> pointers_;
     StopReason stop_ = StopReason::unfinished;
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -36,12 +37,28 @@ struct EstimateScratch {
 
 namespace detail {
 
-/// Unshadowed contribution of one light: terms x intensity.
-template <class M, Light L>
-spectrum_of<L> unshadowed(const Receiver<M>& receiver, const L& light) {
+/// Calls `f(i, contribution)` for each of the lights that contributes if nothing shadows it: terms x intensity. As
+/// many at a time as a cut takes, so that both see the same values.
+template <class M, Light L, class F>
+void for_each_unshadowed(const Receiver<M>& receiver, std::span<const L> lights, F&& f) {
     static_assert(Material<std::remove_cvref_t<M>>,
                   "a material needs evaluate(to_light) const, which returns a Spectrum");
-    return finite_product(unshadowed_terms(receiver, light), spectrum_of<L>(intensity_of(light)));
+    using S = spectrum_of<L>;
+    LightBlock block;
+    LaneSpectra<S> terms;
+    for (std::size_t begin = 0; begin < lights.size(); begin += lane_count) {
+        const std::span<const L> members = lights.subspan(begin,
+                                                          std::min<std::size_t>(lane_count, lights.size() - begin));
+        const int count = static_cast<int>(members.size());
+        for (int i = 0; i < count; ++i) block.set(i, members[static_cast<std::size_t>(i)]);
+        block.template finish<L>(count);
+        unshadowed_terms<L>(
+            receiver, block, count, [&](int i) -> const L& { return members[static_cast<std::size_t>(i)]; }, terms);
+        for (std::size_t i = 0; i < members.size(); ++i) {
+            const S contribution = finite_product(terms[i], S(intensity_of(members[i])));
+            if (!is_black(contribution)) f(static_cast<std::uint32_t>(begin + i), contribution);
+        }
+    }
 }
 
 template <Spectrum S>

@@ -23,12 +23,10 @@ Estimate<typename Forest::spectrum> exhaustive(const Forest& forest, const Recei
     };
     scratch.contributions.clear();
     forest.for_each([&](std::uint32_t kind, const auto& tree) {
-        for (std::uint32_t i = 0; i < tree.lights().size(); ++i) {
-            const S radiance = detail::unshadowed(receiver, tree.lights()[i]);
-            if (is_black(radiance)) continue;
+        detail::for_each_unshadowed(receiver, tree.lights(), [&](std::uint32_t i, const S& radiance) {
             scratch.contributions.push_back({radiance, i, kind});
             if (scratch.contributions.size() == batch) flush();
-        }
+        });
     });
     flush();
     result.radiance = sum.value();

@@ -64,11 +64,13 @@ Estimate<typename Forest::spectrum> power_sampling(const Forest& forest, const P
     for (std::uint32_t k = 0; k < samples; ++k) {
         const double jitter = to_unit(hash_keys(seed, receiver.id, k));
         const auto choice = distribution.choose((k + jitter) / samples);
-        const S radiance = forest.visit(
-            choice.kind, [&](const auto& tree) { return detail::unshadowed(receiver, tree.lights()[choice.light]); });
-        if (is_black(radiance)) continue;
         const auto weight = static_cast<float>(1.0 / (choice.probability * samples));
-        scratch.contributions.push_back({finite(S(radiance * weight)), choice.light, choice.kind});
+        forest.visit(choice.kind, [&](const auto& tree) {
+            detail::for_each_unshadowed(
+                receiver, tree.lights().subspan(choice.light, 1), [&](std::uint32_t, const S& radiance) {
+                    scratch.contributions.push_back({finite(S(radiance * weight)), choice.light, choice.kind});
+                });
+        });
     }
     detail::RadianceSum<S> sum;
     detail::ask(forest, receiver, oracle, scratch, std::span<const Contribution>(scratch.contributions),

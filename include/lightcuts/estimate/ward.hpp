@@ -18,11 +18,9 @@ Estimate<typename Forest::spectrum> ward(const Forest& forest, const Receiver<M>
     constexpr std::size_t block = 16;
     scratch.contributions.clear();
     forest.for_each([&](std::uint32_t kind, const auto& tree) {
-        for (std::uint32_t i = 0; i < tree.lights().size(); ++i) {
-            const S radiance = detail::unshadowed(receiver, tree.lights()[i]);
-            if (is_black(radiance)) continue;
+        detail::for_each_unshadowed(receiver, tree.lights(), [&](std::uint32_t i, const S& radiance) {
             scratch.contributions.push_back({radiance, i, kind});
-        }
+        });
     });
     std::sort(scratch.contributions.begin(), scratch.contributions.end(),
               [](const Contribution& a, const Contribution& b) {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "../core/lanes.hpp"
 #include "light.hpp"
 
 namespace lightcuts {
@@ -49,6 +50,72 @@ Incidence incidence(const L& light, const glm::vec3& point) {
             }
         }
         return {glm::vec3(to_light), geometric};
+    }
+}
+
+/// True if the lights of kind `L` fall off with the squared distance.
+template <Light L>
+inline constexpr bool inverse_square = PointLight<L> && !FalloffLight<L>;
+/// True if the lights of kind `L` emit intensity * max(0, cos) about an axis.
+template <Light L>
+inline constexpr bool cosine_emission = OrientedLight<L> && !ProfiledLight<L>;
+/// True if emission or falloff of the lights of kind `L` is a function of the user's.
+template <Light L>
+inline constexpr bool has_profile = PointLight<L> && (ProfiledLight<L> || FalloffLight<L>);
+
+/// Where several lights of one kind stand, side by side, and how they are turned if that matters.
+struct LightBlock {
+    LaneVectors place;  ///< as `place_of`
+    LaneVectors axis;
+
+    /// pre: 0 <= lane < lane_count
+    template <Light L>
+    void set(int lane, const L& light) {
+        place.set(lane, place_of(light));
+        if constexpr (OrientedLight<L>) axis.set(lane, to_vec3(detail::axis_of(light)));
+    }
+
+    /// Repeats the last of `count` lights in the lanes behind it. pre: 0 < count <= lane_count
+    template <Light L>
+    void finish(int count) {
+        detail::repeat_last(place, count);
+        if constexpr (OrientedLight<L>) detail::repeat_last(axis, count);
+    }
+};
+
+/// How several lights reach a point.
+struct IncidenceBlock {
+    LaneVectors to_light;         ///< unit within 4e-7
+    alignas(32) Lanes geometric;  ///< emission x attenuation
+    alignas(32) Lanes in_range;   ///< 1; 0 where float cannot tell: ask `incidence`
+};
+
+/// `incidence` of the lights in every lane, in float.
+template <Light L>
+    requires(!has_profile<L>)
+void incidences(const LightBlock& lights, const glm::vec3& point, IncidenceBlock& arriving) {
+    using detail::select, detail::smaller, detail::larger;
+    if constexpr (DirectionalLight<L>) {
+        arriving.to_light = lights.place;
+        for (int i = 0; i < lane_count; ++i) arriving.geometric[i] = arriving.in_range[i] = 1.0f;
+    } else {
+        for (int i = 0; i < lane_count; ++i) {
+            const float x = lights.place.x[0][i] - point.x, y = lights.place.x[1][i] - point.y,
+                        z = lights.place.x[2][i] - point.z;
+            const float d2 = x * x + y * y + z * z;
+            const float inverse = detail::inverse_sqrt(d2);
+            const float ux = x * inverse, uy = y * inverse, uz = z * inverse;
+            float geometric = inverse * inverse;
+            if constexpr (OrientedLight<L>) {
+                const float cosine = -(lights.axis.x[0][i] * ux + lights.axis.x[1][i] * uy + lights.axis.x[2][i] * uz);
+                geometric *= larger(cosine, 0.0f);
+            }
+            arriving.to_light.x[0][i] = ux;
+            arriving.to_light.x[1][i] = uy;
+            arriving.to_light.x[2][i] = uz;
+            arriving.geometric[i] = geometric;
+            arriving.in_range[i] = select(smaller(d2 - 1e-20f, 1e20f - d2) > 0.0f, 1.0f, 0.0f);
+        }
     }
 }
 

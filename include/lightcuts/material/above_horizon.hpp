@@ -1,5 +1,7 @@
 #pragma once
 
+#include <glm/geometric.hpp>
+
 #include "material.hpp"
 #include "outward.hpp"
 
@@ -20,11 +22,18 @@ struct AboveHorizon {
         return detail::dot(glm::dvec3(geometric_normal), glm::dvec3(to_light)) > 0.0 ? material.evaluate(to_light)
                                                                                      : S{};
     }
+    void evaluate_many(const LaneVectors& to_lights, LaneSpectra<S>& values) const {
+        evaluate_lanes(material, to_lights, values);
+        for (int i = 0; i < lane_count; ++i) {
+            if (!(glm::dot(geometric_normal, to_lights.at(i)) > 0.0f)) values[static_cast<std::size_t>(i)] = S{};
+        }
+    }
     S upper_bound(const OffsetBox& offsets) const requires BoundedMaterial<Inner> {
         return is_below(offsets) ? S{} : material.upper_bound(offsets);
     }
-    S quick_upper_bound(const OffsetBox& offsets) const requires BoundedMaterial<Inner> {
-        return is_below(offsets) ? S{} : cheapest_upper_bound(material, offsets);
+    void quick_upper_bounds(const OffsetBlock& offsets, LaneSpectra<S>& bounds) const requires BoundedMaterial<Inner> {
+        cheapest_upper_bounds(material, offsets, bounds);
+        detail::blacken_below(geometric_normal, offsets, bounds);
     }
     /// Exceeds the material below the horizon, so a bound from it should be compared with `upper_bound`.
     CosineLobe<S> cosine_lobe() const requires CosineLobeMaterial<Inner> { return material.cosine_lobe(); }

@@ -8,7 +8,7 @@
 
 #include "../core/box.hpp"
 #include "../core/cosine.hpp"
-#include "direction_cap.hpp"
+#include "direction_caps.hpp"
 
 namespace lightcuts::detail {
 
@@ -29,6 +29,12 @@ struct HalfVector {
 struct HalfVectorRange {
     double sin2;
     double facing;
+};
+
+/// The same over several sets of directions.
+struct HalfVectorRanges {
+    alignas(32) Lanes sin2;
+    alignas(32) Lanes facing;
 };
 
 /// Normal n and view direction i of one receiver, and the ranges of half-vectors over boxes of offsets, after
@@ -57,6 +63,7 @@ public:
     }
 
     const glm::dvec3& normal() const { return normal_; }
+    const glm::dvec3& view() const { return view_; }
     /// n . i
     double cos_view() const { return cos_n_; }
 
@@ -134,34 +141,47 @@ public:
         return {least_sin2(t, cos_phi, sin_phi), facing};
     }
 
-    /// Over a cap of directions: looser, without iteration.
-    /// pre: cos_view() > 0; the cap is narrow
-    /// cost: about 20 ns
-    HalfVectorRange range_over(const DirectionCap& cap) const {
-        const double base = cap.along + dot(view_, cap.centre);
-        if (!(base > 0.0 && base * base > 1e-24 * cap.d2)) return {0.0, 0.0};
-        // Stereographic projection from -i takes o to (t cos phi, t sin phi), and caps to discs; here times `base`.
-        const double x = dot(x_, cap.centre);
-        const double y = std::fabs(dot(y_, cap.centre));
-        const double radius = cap.across;
-        const double m2 = x * x + y * y;
-        const double m = std::sqrt(m2);
-        const double outside2 = m2 * (1.0 - 32.0 * unit_roundoff) - radius * radius;
-        double cos_phi = 1.0;
-        double sin_phi = 0.0;
-        if (outside2 > 0.0 && !(x > 0.0 && y <= radius)) {
+    /// Over caps of directions: looser, in float.
+    /// pre: cos_view() > 0
+    void ranges_over(const DirectionCaps& caps, HalfVectorRanges& ranges) const {
+        const glm::vec3 view(view_), x_axis(x_), y_axis(y_);
+        const auto cos_n = static_cast<float>(cos_n_), sin_n = static_cast<float>(sin_n_);
+        const auto tan_n = static_cast<float>(smaller(tan_n_, 1e30));
+        alignas(32) Lanes to_mirror;
+        clamped_max_cosines(glm::vec3(mirror_), caps, to_mirror);
+        for (int i = 0; i < lane_count; ++i) {
+            const float cx = caps.centre[0][i], cy = caps.centre[1][i], cz = caps.centre[2][i];
+            // Stereographic projection from -i takes o to (t cos phi, t sin phi), and caps to discs; here times `base`.
+            const float base = caps.cos[i] + (view.x * cx + view.y * cy + view.z * cz);
+            const float x = x_axis.x * cx + x_axis.y * cy + x_axis.z * cz;
+            const float y = magnitude(y_axis.x * cx + y_axis.y * cy + y_axis.z * cz);
+            const float radius = caps.sin[i] + 1e-6f;
+            const float m2 = x * x + y * y;
+            const float m = square_root(m2);
             // Turn the centre's azimuth towards n's by that of the tangent to the disc.
-            const double tangent = std::sqrt(outside2);
-            cos_phi = (x * tangent + y * radius) / m2;
-            sin_phi = (y * tangent - x * radius) / m2;
+            const float outside2 = m2 * 0.999998f - radius * radius;
+            const float tangent = square_root(larger(outside2, 0.0f));
+            const float reach = select(x > 0.0f, radius - y, -1.0f);  // of the half-plane of azimuth 0
+            const bool is_apart = smaller(outside2, -reach) > 0.0f;
+            const float scale = 1.0f / larger(m2, 1e-30f);
+            const float cos_phi = select(is_apart, (x * tangent + y * radius) * scale, 1.0f);
+            const float sin_phi = select(is_apart, (y * tangent - x * radius) * scale, 0.0f);
+            const float inverse = 1.0f / larger(base, 1e-3f);
+            const float noise = 6e-6f * inverse;
+            const float nearest = larger(m - radius, 0.0f) * inverse * (1.0f - noise);
+            const float farthest = (m + radius) * inverse * (1.0f + 1.1f * noise);
+            const float peak = tan_n * larger(cos_phi, 0.0f);
+            const float t = smaller(larger(peak, nearest), farthest);
+            // Between n and h = (t cos phi, t sin phi, 1), less an angle of 1e-5.
+            const float beside = t * sin_phi, before = cos_n * (t * cos_phi) - sin_n;
+            const float from_range = (beside * beside + before * before) / (1.0f + t * t) * 0.999f - 1e-7f;
+            // Another bound: h -> o at most doubles angles, so n and h are at least half as far apart as o and n's
+            // image.
+            const float from_mirror = 0.499999f - 0.5f * to_mirror[i];
+            const bool is_usable = smaller(base - 1e-3f, caps.narrow[i] - 0.5f) > 0.0f;
+            ranges.sin2[i] = select(is_usable, larger(larger(from_range, from_mirror), 0.0f), 0.0f);
+            ranges.facing[i] = select(is_usable, larger(inverse_sqrt(1.0f + farthest * farthest) - 1e-6f, 0.0f), 0.0f);
         }
-        const double nearest = m > radius ? (m - radius) / base : 0.0;
-        const double farthest = (m + radius) / base;
-        const double t = clamp(cos_phi > 0.0 ? tan_n_ * cos_phi : 0.0, nearest, farthest);
-        // Another bound: h -> o at most doubles angles, so n and h are at least half as far apart as o and n's image.
-        const double apart = 0.5 - 0.5 * clamped_max_cosine(mirror_, cap);
-        const double sin2 = least_sin2(t, cos_phi, sin_phi);
-        return {apart > sin2 ? apart : sin2, 1.0 / std::sqrt(1.0 + farthest * farthest)};
     }
 
 private:

@@ -4,7 +4,6 @@
 #include <glm/vec3.hpp>
 
 #include "../core/cosine.hpp"
-#include "direction_cap.hpp"
 #include "material.hpp"
 #include "outward.hpp"
 
@@ -20,6 +19,13 @@ struct Lambert {
         const float cosine = glm::dot(normal, to_light);
         return cosine > 0.0f ? cosine_lobe().scale * cosine : S{};
     }
+    void evaluate_many(const LaneVectors& to_lights, LaneSpectra<S>& values) const {
+        const S scale = cosine_lobe().scale;
+        for (int i = 0; i < lane_count; ++i) {
+            const float cosine = glm::dot(normal, to_lights.at(i));
+            values[static_cast<std::size_t>(i)] = scale * detail::larger(cosine, 0.0f);
+        }
+    }
     CosineLobe<S> cosine_lobe() const { return {normal, albedo * 0.31830988618f}; }
 
     /// cost: about 40 ns
@@ -28,13 +34,15 @@ struct Lambert {
         if (detail::lies_below(n, offsets, error)) return S{};
         return detail::scaled_up(cosine_lobe().scale, clamped_max_cosine(n, offsets) + error);
     }
-    /// cost: about 15 ns
-    S quick_upper_bound(const OffsetBox& offsets) const {
-        const glm::dvec3 n(normal);
-        if (detail::lies_below(n, offsets, error)) return S{};
-        const detail::DirectionCap cap = detail::cap_of(offsets);
-        const double cosine = cap.is_narrow ? detail::clamped_max_cosine(n, cap) : 1.0;
-        return detail::scaled_up(cosine_lobe().scale, (cosine > 0.0 ? cosine : 0.0) + error);
+    /// cost: about 5 ns each
+    void quick_upper_bounds(const OffsetBlock& offsets, LaneSpectra<S>& bounds) const {
+        alignas(32) Lanes cosines;
+        detail::clamped_max_cosines(normal, offsets, cosines);
+        for (int i = 0; i < lane_count; ++i) {
+            bounds[static_cast<std::size_t>(i)] = cosines[i] > 0.0f ? detail::scaled_up(cosine_lobe().scale,
+                                                                                        static_cast<double>(cosines[i]))
+                                                                    : S{};
+        }
     }
 
 private:

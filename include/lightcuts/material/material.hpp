@@ -1,12 +1,15 @@
 #pragma once
 
+#include <array>
 #include <concepts>
+#include <cstddef>
 #include <type_traits>
 #include <utility>
 
 #include <glm/vec3.hpp>
 
 #include "../core/box.hpp"
+#include "../core/offset_block.hpp"
 #include "../core/spectrum.hpp"
 
 namespace lightcuts {
@@ -33,10 +36,24 @@ concept BoundedMaterial = Material<M> && requires(const M& m, const OffsetBox& b
     { m.upper_bound(box) } -> std::same_as<material_spectrum<M>>;
 };
 
-/// A bounded material with a second, cheaper bound: as valid, less tight, without iteration.
+/// One spectrum for each box of an OffsetBlock.
+template <Spectrum S>
+using LaneSpectra = std::array<S, lane_count>;
+
+/// A material that evaluates several directions at once: `evaluate_many(to_lights, values)` sets values[i] to what
+/// `evaluate` returns for lane i, within float rounding.
 template <class M>
-concept QuicklyBoundedMaterial = BoundedMaterial<M> && requires(const M& m, const OffsetBox& box) {
-    { m.quick_upper_bound(box) } -> std::same_as<material_spectrum<M>>;
+concept LaneMaterial = Material<M> &&
+    requires(const M& m, const LaneVectors& to_lights, LaneSpectra<material_spectrum<M>>& values) {
+    m.evaluate_many(to_lights, values);
+};
+
+/// A bounded material with a second, cheaper bound: as valid, less tight, without iteration, and for several boxes at
+/// once. `quick_upper_bounds(offsets, bounds)` sets bounds[i] for the box in lane i of `offsets`.
+template <class M>
+concept QuicklyBoundedMaterial = BoundedMaterial<M> &&
+    requires(const M& m, const OffsetBlock& offsets, LaneSpectra<material_spectrum<M>>& bounds) {
+    m.quick_upper_bounds(offsets, bounds);
 };
 
 /// scale * max(0, cos) about a normal. `normal`: unit; `scale`: 1/sr.
@@ -68,13 +85,45 @@ concept CompositeMaterial = Material<M> && requires(const M& m, detail::AnyCompo
     m.for_each_component(visit);
 };
 
-/// The material's cheapest bound: `quick_upper_bound` if it has one, else `upper_bound`.
-template <BoundedMaterial M>
-material_spectrum<M> cheapest_upper_bound(const M& m, const OffsetBox& box) {
-    if constexpr (QuicklyBoundedMaterial<M>) {
-        return m.quick_upper_bound(box);
+/// `evaluate` for every lane: by `evaluate_many` if the material has it, part by part if it is composite.
+template <Material M>
+void evaluate_lanes(const M& m, const LaneVectors& to_lights, LaneSpectra<material_spectrum<M>>& values) {
+    if constexpr (LaneMaterial<M>) {
+        m.evaluate_many(to_lights, values);
+    } else if constexpr (CompositeMaterial<M>) {
+        values = {};
+        m.for_each_component([&](const auto& part) {
+            LaneSpectra<material_spectrum<M>> terms;
+            evaluate_lanes(part, to_lights, terms);
+            for (std::size_t i = 0; i < values.size(); ++i) values[i] = values[i] + terms[i];
+        });
     } else {
-        return m.upper_bound(box);
+        for (int i = 0; i < lane_count; ++i) values[static_cast<std::size_t>(i)] = m.evaluate(to_lights.at(i));
+    }
+}
+
+namespace detail {
+
+/// The box in lane `i`, in double; one that holds every direction where float has overflowed.
+inline OffsetBox lane_box(const OffsetBlock& block, int i) {
+    const glm::dvec3 centre(block.centre[0][i], block.centre[1][i], block.centre[2][i]);
+    const glm::dvec3 half(block.half[0][i], block.half[1][i], block.half[2][i]);
+    const OffsetBox box{centre - half, centre + half};
+    const bool overflown = !(max_distance2(box) < std::numeric_limits<double>::infinity());
+    return overflown ? OffsetBox{glm::dvec3(-1e38), glm::dvec3(1e38)} : box;
+}
+
+}  // namespace detail
+
+/// The material's cheapest bounds of several boxes: `quick_upper_bounds` if it has them, else `upper_bound` of each.
+template <BoundedMaterial M>
+void cheapest_upper_bounds(const M& m, const OffsetBlock& offsets, LaneSpectra<material_spectrum<M>>& bounds) {
+    if constexpr (QuicklyBoundedMaterial<M>) {
+        m.quick_upper_bounds(offsets, bounds);
+    } else {
+        for (int i = 0; i < lane_count; ++i) {
+            bounds[static_cast<std::size_t>(i)] = m.upper_bound(detail::lane_box(offsets, i));
+        }
     }
 }
 

@@ -1,19 +1,22 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 #include <glm/vec3.hpp>
 
 #include "../core/box.hpp"
+#include "../core/offset_block.hpp"
 #include "../core/spectrum.hpp"
+#include "material.hpp"
 
 namespace lightcuts::detail {
 
 /// How far evaluate() may see a light from where it is: normalising the float difference of two positions changes each
 /// coordinate by at most 3 relative float roundoffs, apart from a factor common to all. Also the angle, in radians,
 /// that this amounts to at most.
-inline constexpr double direction_error = 4.0 * 0x1p-24;
+inline constexpr double direction_error = 16.0 * 0x1p-24;
 
 /// A box that also holds the offsets whose directions are those of `b` as rounded to float. Zeros stay zeros.
 inline OffsetBox rounded_directions(const OffsetBox& b) {
@@ -31,6 +34,17 @@ inline bool lies_below(const glm::dvec3& n, const OffsetBox& b, double error = d
     return x + y + z <= -error * (std::fabs(x) + std::fabs(y) + std::fabs(z));
 }
 
+/// Blackens the bounds of boxes for which n . p > 0 holds nowhere, directions rounded to float. `n`: a unit vector
+/// within float rounding.
+template <Spectrum S>
+void blacken_below(const glm::vec3& n, const OffsetBlock& offsets, LaneSpectra<S>& bounds) {
+    LaneSupport s;
+    support(n, offsets, s);
+    for (int i = 0; i < lane_count; ++i) {
+        if (s.value[i] <= -s.noise[i]) bounds[static_cast<std::size_t>(i)] = S{};
+    }
+}
+
 /// The largest cosine after the direction has turned by `direction_error`. pre: 0 <= c <= 1
 inline double turned(double c) {
     const double raised = c + direction_error * std::sqrt((1.0 - c) * (1.0 + c));
@@ -41,7 +55,7 @@ inline double turned(double c) {
 /// in float; at least the smallest normal float. pre: x >= 0
 inline float padded(double x) {
     constexpr float smallest = std::numeric_limits<float>::min();
-    const auto raised = static_cast<float>(x * (1.0 + 2e-6));
+    const auto raised = static_cast<float>(x * (1.0 + 5e-5));
     return raised > smallest ? raised : smallest;
 }
 

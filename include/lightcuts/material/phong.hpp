@@ -7,7 +7,6 @@
 
 #include "../core/assertion.hpp"
 #include "../core/cosine.hpp"
-#include "direction_cap.hpp"
 #include "material.hpp"
 #include "outward.hpp"
 
@@ -46,12 +45,17 @@ public:
         const double along = clamped_max_cosine(mirror_, offsets, 0.01 / (1.0 + exponent_));
         return bound(detail::turned(along), detail::turned(clamped_max_cosine(normal_, offsets)));
     }
-    /// cost: about 30 ns
-    S quick_upper_bound(const OffsetBox& offsets) const {
-        if (detail::lies_below(normal_, offsets) || detail::lies_below(mirror_, offsets)) return S{};
-        const detail::DirectionCap cap = detail::cap_of(offsets);
-        if (!cap.is_narrow) return bound(1.0, 1.0);
-        return bound(detail::clamped_max_cosine(mirror_, cap), detail::clamped_max_cosine(normal_, cap));
+    /// cost: about 20 ns each
+    void quick_upper_bounds(const OffsetBlock& offsets, LaneSpectra<S>& bounds) const {
+        alignas(32) Lanes along, cosines;
+        detail::clamped_max_cosines(glm::vec3(mirror_), offsets, along);
+        detail::clamped_max_cosines(glm::vec3(normal_), offsets, cosines);
+        for (int i = 0; i < lane_count; ++i) {
+            const bool is_dark = detail::smaller(along[i], cosines[i]) == 0.0f;
+            bounds[static_cast<std::size_t>(i)] = is_dark ? S{}
+                                                          : bound(static_cast<double>(along[i]),
+                                                                  static_cast<double>(cosines[i]));
+        }
     }
 
 private:

@@ -18,9 +18,12 @@ public:
         requires(BoundedMaterial<M> && (BoundedMaterial<Ms> && ...)) {
         return first_.upper_bound(offsets) + rest_.upper_bound(offsets);
     }
-    material_spectrum<M> quick_upper_bound(const OffsetBox& offsets) const
+    void quick_upper_bounds(const OffsetBlock& offsets, LaneSpectra<material_spectrum<M>>& bounds) const
         requires(BoundedMaterial<M> && (BoundedMaterial<Ms> && ...)) {
-        return cheapest_upper_bound(first_, offsets) + cheapest_upper_bound(rest_, offsets);
+        LaneSpectra<material_spectrum<M>> others;
+        cheapest_upper_bounds(first_, offsets, bounds);
+        rest_.quick_upper_bounds(offsets, others);
+        for (std::size_t i = 0; i < bounds.size(); ++i) bounds[i] = bounds[i] + others[i];
     }
     /// Calls f(material) for each material that is not itself a composite, in order.
     template <class F>
@@ -47,8 +50,9 @@ public:
     material_spectrum<M> upper_bound(const OffsetBox& offsets) const requires BoundedMaterial<M> {
         return only_.upper_bound(offsets);
     }
-    material_spectrum<M> quick_upper_bound(const OffsetBox& offsets) const requires BoundedMaterial<M> {
-        return cheapest_upper_bound(only_, offsets);
+    void quick_upper_bounds(const OffsetBlock& offsets,
+                            LaneSpectra<material_spectrum<M>>& bounds) const requires BoundedMaterial<M> {
+        cheapest_upper_bounds(only_, offsets, bounds);
     }
     template <class F>
     void for_each_component(F&& f) const {

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <cstddef>
 #include <limits>
 
 #include "../light/incidence.hpp"
+#include "material.hpp"
 #include "receiver.hpp"
 
 namespace lightcuts {
@@ -16,6 +18,31 @@ spectrum_of<L> unshadowed_terms(const Receiver<M>& receiver, const L& light) {
     constexpr double largest = std::numeric_limits<float>::max();
     const double geometric = arriving.geometric < largest ? arriving.geometric : largest;
     return finite(S(receiver.material.evaluate(arriving.to_light) * static_cast<float>(geometric)));
+}
+
+/// The same for the first `count` lights of a block, terms[i] for lane i, in float vector code where the kinds of light
+/// and material allow it. `light_of(i)` is the light itself, for where they do not. pre: 0 < count <= lane_count
+template <Light L, class M, class LightOf>
+void unshadowed_terms(const Receiver<M>& receiver, const LightBlock& lights, int count, const LightOf& light_of,
+                      LaneSpectra<spectrum_of<L>>& terms) {
+    using S = spectrum_of<L>;
+    if constexpr (has_profile<L>) {
+        for (int i = 0; i < count; ++i) {
+            terms[static_cast<std::size_t>(i)] = unshadowed_terms<M, L>(receiver, light_of(i));
+        }
+    } else {
+        IncidenceBlock arriving;
+        incidences<L>(lights, receiver.position, arriving);
+        evaluate_lanes(receiver.material, arriving.to_light, terms);
+        for (int i = 0; i < count; ++i) {
+            S& t = terms[static_cast<std::size_t>(i)];
+            if (arriving.in_range[i] != 0.0f) {
+                t = finite(S(t * arriving.geometric[i]));
+            } else {
+                t = unshadowed_terms<M, L>(receiver, light_of(i));
+            }
+        }
+    }
 }
 
 }  // namespace lightcuts

@@ -4,7 +4,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "direction_cap.hpp"
+#include "direction_caps.hpp"
 #include "half_vector.hpp"
 #include "material.hpp"
 #include "outward.hpp"
@@ -60,15 +60,28 @@ public:
 
     /// cost: about 120 ns
     S upper_bound(const OffsetBox& offsets) const {
-        if (!(frame_.cos_view() > 0.0) || detail::lies_below(frame_.normal(), offsets)) return S{};
-        return bound(detail::cap_of(offsets),
-                     frame_.template range_over<false>(detail::rounded_directions(offsets)).sin2);
+        const glm::dvec3& n = frame_.normal();
+        if (!(frame_.cos_view() > 0.0) || detail::lies_below(n, offsets)) return S{};
+        const double most = detail::turned(clamped_max_cosine(n, offsets, 0.01));
+        const double least = min_cosine(n, offsets, 0.01) - detail::direction_error;
+        return bound(least, most, frame_.template range_over<false>(detail::rounded_directions(offsets)).sin2);
     }
-    /// cost: about 60 ns
-    S quick_upper_bound(const OffsetBox& offsets) const {
-        if (!(frame_.cos_view() > 0.0) || detail::lies_below(frame_.normal(), offsets)) return S{};
-        const detail::DirectionCap cap = detail::cap_of(offsets);
-        return bound(cap, cap.is_narrow ? frame_.range_over(cap).sin2 : 0.0);
+    /// cost: about 20 ns each
+    void quick_upper_bounds(const OffsetBlock& offsets, LaneSpectra<S>& bounds) const {
+        if (!(frame_.cos_view() > 0.0)) return bounds.fill(S{});
+        const glm::vec3 normal(frame_.normal());
+        detail::DirectionCaps caps;
+        detail::HalfVectorRanges h;
+        alignas(32) Lanes most, least;
+        detail::caps_of(offsets, caps);
+        detail::clamped_max_cosines(normal, caps, most);
+        detail::clamped_min_cosines(normal, caps, least);
+        frame_.ranges_over(caps, h);
+        for (int i = 0; i < lane_count; ++i) {
+            bounds[static_cast<std::size_t>(i)] = bound(static_cast<double>(least[i]), static_cast<double>(most[i]),
+                                                        static_cast<double>(h.sin2[i]));
+        }
+        detail::blacken_below(normal, offsets, bounds);
     }
 
 private:
@@ -80,15 +93,9 @@ private:
 
     static double squared_tangent(double sin2) { return sin2 < 1.0 ? sin2 / (1.0 - sin2) : 1e300; }
 
-    /// The lobe hardly depends on the light's cosine, so a cheap range of it does.
-    S bound(const detail::DirectionCap& cap, double least_sin2) const {
-        double lo = 0.0;
-        double hi = 1.0;
-        if (cap.is_narrow) {
-            lo = detail::clamped_min_cosine(frame_.normal(), cap);
-            const double most = detail::clamped_max_cosine(frame_.normal(), cap);
-            hi = most > 0.0 ? most : 0.0;
-        }
+    /// Given the range of the light's cosine, on which the lobe hardly depends.
+    S bound(double least_cosine, double most_cosine, double least_sin2) const {
+        const double lo = least_cosine > 0.0 ? least_cosine : 0.0, hi = most_cosine > lo ? most_cosine : lo;
         const double tan2 = Normalisation::best_tan2(squared_tangent(least_sin2), alpha2_);
         return detail::scaled_up(specular_, lobe(Normalisation::best_cosine(frame_.cos_view(), lo, hi), tan2));
     }

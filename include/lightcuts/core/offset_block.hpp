@@ -1,0 +1,181 @@
+#pragma once
+
+#include <limits>
+
+#include <glm/vec3.hpp>
+
+#include "lanes.hpp"
+
+namespace lightcuts {
+
+/// Several boxes of offsets, coordinate by coordinate in float: the quick bounds of all of them are computed in loops
+/// that compilers turn into vector code. Whatever float cannot do (overflow, denormals) makes a bound infinite.
+/// Fill with `set`, then call `finish`.
+struct OffsetBlock {
+    alignas(32) Lanes centre[3];
+    alignas(32) Lanes half[3];  ///< of the edges; widened by all rounding up to here, but zero stays zero
+    alignas(32) Lanes inverse;  ///< 1 / least distance; infinite if that is zero or out of float's range
+
+    /// pre: 0 <= lane < lane_count
+    void set(int lane, const glm::vec3& lo, const glm::vec3& hi) {
+        const glm::vec3 middle = 0.5f * lo + 0.5f * hi, edges = 0.5f * hi - 0.5f * lo;
+        centre[0][lane] = middle.x;
+        centre[1][lane] = middle.y;
+        centre[2][lane] = middle.z;
+        half[0][lane] = edges.x;
+        half[1][lane] = edges.y;
+        half[2][lane] = edges.z;
+    }
+
+    /// Repeats the last of `count` boxes in the lanes behind it, and completes all. pre: count > 0
+    void finish(int count) {
+        for (int k = 0; k < 3; ++k) {
+            detail::repeat_last(centre[k], count);
+            detail::repeat_last(half[k], count);
+        }
+        for (int k = 0; k < 3; ++k) {
+            for (int i = 0; i < lane_count; ++i) half[k][i] += 1e-6f * (detail::magnitude(centre[k][i]) + half[k][i]);
+        }
+        for (int i = 0; i < lane_count; ++i) {
+            const float x = detail::larger(detail::magnitude(centre[0][i]) - half[0][i], 0.0f);
+            const float y = detail::larger(detail::magnitude(centre[1][i]) - half[1][i], 0.0f);
+            const float z = detail::larger(detail::magnitude(centre[2][i]) - half[2][i], 0.0f);
+            const float d2 = x * x + y * y + z * z;
+            const bool in_range = detail::smaller(d2 - 1e-30f, 1e37f - d2) > 0.0f;
+            inverse[i] = detail::select(in_range, detail::inverse_sqrt(d2) * 1.000001f,
+                                        std::numeric_limits<float>::infinity());
+        }
+    }
+};
+
+namespace detail {
+
+/// The largest v.p of each lane, its rounding error, and v.centre.
+struct LaneSupport {
+    alignas(32) Lanes at_centre;
+    alignas(32) Lanes value;
+    alignas(32) Lanes noise;
+};
+
+/// The support of one lane.
+inline void support_lane(float vx, float vy, float vz, const OffsetBlock& b, int i, LaneSupport& s) {
+    const float ax = magnitude(vx), ay = magnitude(vy), az = magnitude(vz);
+    const float cx = b.centre[0][i], cy = b.centre[1][i], cz = b.centre[2][i];
+    const float rx = magnitude(cx) + b.half[0][i], ry = magnitude(cy) + b.half[1][i], rz = magnitude(cz) + b.half[2][i];
+    const float at_centre = vx * cx + vy * cy + vz * cz;
+    s.at_centre[i] = at_centre;
+    s.value[i] = at_centre + (ax * b.half[0][i] + ay * b.half[1][i] + az * b.half[2][i]);
+    // A product of factors that are not zero is not zero, though it may underflow.
+    const bool any = ((ax > 0.0f) & (rx > 0.0f)) | ((ay > 0.0f) & (ry > 0.0f)) | ((az > 0.0f) & (rz > 0.0f));
+    s.noise[i] = 1e-6f * (ax * rx + ay * ry + az * rz) + select(any, 1e-37f, 0.0f);
+}
+
+inline void support(const LaneVectors& v, const OffsetBlock& b, LaneSupport& s) {
+    for (int i = 0; i < lane_count; ++i) support_lane(v.x[0][i], v.x[1][i], v.x[2][i], b, i, s);
+}
+
+/// Of one vector in all lanes.
+inline void support(const glm::vec3& v, const OffsetBlock& b, LaneSupport& s) {
+    const float x = v.x, y = v.y, z = v.z;
+    for (int i = 0; i < lane_count; ++i) support_lane(x, y, z, b, i, s);
+}
+
+/// The certificate of `max_power` at `step`: lowers `best`, a bound of (v.p)+ / |p|^K, and moves `step` to where the
+/// bound would be exact if the same coordinates stayed clamped.
+template <int K>
+void certify(const LaneVectors& v, const OffsetBlock& b, Lanes& step, Lanes& best) {
+    constexpr float k = K;
+    alignas(32) Lanes next, bound;
+    for (int i = 0; i < lane_count; ++i) {
+        const float vx = v.x[0][i], vy = v.x[1][i], vz = v.x[2][i];
+        const float cx = b.centre[0][i], cy = b.centre[1][i], cz = b.centre[2][i];
+        const float hx = b.half[0][i], hy = b.half[1][i], hz = b.half[2][i];
+        const float inverse = b.inverse[i], s = step[i];
+        const float wx = s * vx, wy = s * vy, wz = s * vz;
+        const float qx = smaller(larger(wx, cx - hx), cx + hx);
+        const float qy = smaller(larger(wy, cy - hy), cy + hy);
+        const float qz = smaller(larger(wz, cz - hz), cz + hz);
+        const float q2 = qx * qx + qy * qy + qz * qz;
+        const float tx = wx * qx, ty = wy * qy, tz = wz * qz;
+        const float error = 2e-6f * (q2 + k * (magnitude(tx) + magnitude(ty) + magnitude(tz)));
+        const float deficit = larger(k * (tx + ty + tz) - q2 + error, 0.0f);
+        float value = 0.0f;
+        if constexpr (K == 1) value = q2 * inverse_sqrt(q2) + deficit * inverse;
+        if constexpr (K == 2) value = 1.0f + deficit * inverse * inverse;
+        if constexpr (K == 3) value = inverse_sqrt(q2) + deficit * inverse * inverse * inverse;
+        bound[i] = smaller(value / (k * s), best[i]);
+
+        const float fx = select(qx == wx, 0.0f, qx), fy = select(qy == wy, 0.0f, qy), fz = select(qz == wz, 0.0f, qz);
+        const float c = fx * fx + fy * fy + fz * fz;
+        const float m = k * (fx * vx + fy * vy + fz * vz);
+        float root = c / m;
+        if constexpr (K > 1) {
+            const float ox = select(qx == wx, vx, 0.0f), oy = select(qy == wy, vy, 0.0f),
+                        oz = select(qz == wz, vz, 0.0f);
+            const float under = m * m + 4.0f * (k - 1.0f) * (ox * ox + oy * oy + oz * oz) * c;
+            root = 2.0f * c / (m + under * inverse_sqrt(under));
+        }
+        next[i] = select(root > 1e-18f, smaller(root, 1e18f), s);
+    }
+    for (int i = 0; i < lane_count; ++i) {
+        step[i] = next[i];
+        best[i] = bound[i];
+    }
+}
+
+/// Two certificates from the centre, as `QuickKernel`, for each lane: bounds (v.p)+ / |p|^K. Zero where the support
+/// says that nothing lies in front.
+template <int K>
+void lane_power(const LaneVectors& v, const LaneSupport& s, const OffsetBlock& b, Lanes& bound) {
+    constexpr float k = K;
+    alignas(32) Lanes step, best, result;
+    for (int i = 0; i < lane_count; ++i) {
+        const float cx = b.centre[0][i], cy = b.centre[1][i], cz = b.centre[2][i];
+        const float rx = magnitude(cx) + b.half[0][i], ry = magnitude(cy) + b.half[1][i],
+                    rz = magnitude(cz) + b.half[2][i];
+        const float most = s.value[i] + s.noise[i];
+        const bool in_front = s.at_centre[i] > 0.0f;
+        step[i] = select(in_front, cx * cx + cy * cy + cz * cz, rx * rx + ry * ry + rz * rz) /
+                  (k * select(in_front, s.at_centre[i], most));
+        const float inverse = b.inverse[i];
+        // From the left, since the powers alone would be denormal far away.
+        best[i] = K == 1 ? most * inverse : K == 2 ? most * inverse * inverse : most * inverse * inverse * inverse;
+    }
+    certify<K>(v, b, step, best);
+    certify<K>(v, b, step, best);
+    for (int i = 0; i < lane_count; ++i) {
+        constexpr float largest = std::numeric_limits<float>::max(), infinity = std::numeric_limits<float>::infinity();
+        const float inverse = b.inverse[i];
+        const float slack = 1e-6f * (magnitude(v.x[0][i]) + magnitude(v.x[1][i]) + magnitude(v.x[2][i])) *
+                            (K == 1   ? 1.0f
+                             : K == 2 ? inverse
+                                      : inverse * inverse);
+        const float padded = larger(best[i] * 1.00001f + slack, 1e-37f);
+        // Comparisons that fail for NaN leave infinity.
+        result[i] = select(s.value[i] <= -s.noise[i], 0.0f, select(padded < largest, padded, infinity));
+    }
+    for (int i = 0; i < lane_count; ++i) bound[i] = result[i];
+}
+
+inline void broadcast(const glm::vec3& n, LaneVectors& v) {
+    for (int i = 0; i < lane_count; ++i) {
+        v.x[0][i] = n.x;
+        v.x[1][i] = n.y;
+        v.x[2][i] = n.z;
+    }
+}
+
+/// Upper bounds of max(0, cos) between unit `v` and the points of each box as a float evaluation may see them; exactly
+/// zero where all lie behind.
+inline void clamped_max_cosines(const glm::vec3& v, const OffsetBlock& b, Lanes& cosines) {
+    LaneVectors directions;
+    LaneSupport s;
+    broadcast(v, directions);
+    support(v, b, s);
+    lane_power<1>(directions, s, b, cosines);
+    for (int i = 0; i < lane_count; ++i) cosines[i] = smaller(cosines[i], 1.0f);
+}
+
+}  // namespace detail
+
+}  // namespace lightcuts

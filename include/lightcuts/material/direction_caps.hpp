@@ -1,0 +1,78 @@
+#pragma once
+
+#include <limits>
+
+#include <glm/vec3.hpp>
+
+#include "../core/offset_block.hpp"
+
+namespace lightcuts::detail {
+
+/// For each box of a block a cone about the direction of its centre that holds the directions of all its points, as
+/// rounded to float. Wider than the smallest by 1e-5 radians at most, and by 4e-3 of the box's diagonal over its
+/// distance: so much a needle that points at the receiver loses in float, and more where it is nearer than its length.
+struct DirectionCaps {
+    alignas(32) Lanes centre[3];  ///< unit vectors
+    alignas(32) Lanes cos;        ///< of the half-angle
+    alignas(32) Lanes sin;
+    alignas(32) Lanes narrow;  ///< 1: a cone of under about 88 degrees; 0: the rest means nothing
+};
+
+inline void caps_of(const OffsetBlock& b, DirectionCaps& caps) {
+    for (int i = 0; i < lane_count; ++i) {
+        const float d2 = b.centre[0][i] * b.centre[0][i] + b.centre[1][i] * b.centre[1][i] +
+                         b.centre[2][i] * b.centre[2][i];
+        const float inverse = inverse_sqrt(d2);
+        // Seen from a unit distance.
+        const float x = b.centre[0][i] * inverse, y = b.centre[1][i] * inverse, z = b.centre[2][i] * inverse;
+        const float hx = b.half[0][i] * inverse, hy = b.half[1][i] * inverse, hz = b.half[2][i] * inverse;
+        // Opposite vertices c + s and c - s have c.s = +-t: the one farther from the axis has t < 0, and there
+        // tan^2 = (s^2 - t^2) / (1 - |t|)^2.
+        const float tx = magnitude(x) * hx, ty = magnitude(y) * hy, tz = magnitude(z) * hz;
+        const float s2 = (hx * hx + hy * hy + hz * hz) * 1.000002f;
+        const auto tangent2 = [s2](float t) {
+            const float front = 0.999999f - magnitude(t);
+            return (s2 - t * t * 0.999998f) / (front * front);
+        };
+        const float most = larger(larger(tangent2(tx + ty + tz), tangent2(tx + ty - tz)),
+                                  larger(tangent2(tx - ty + tz), tangent2(tx - ty - tz)));
+        const bool in_range = smaller(d2 - 1e-30f, 1e37f - d2) > 0.0f;
+        const bool is_narrow = smaller(0.999f - (tx + ty + tz), 1e3f - most) > 0.0f;
+        const float tan2 = select(is_narrow, larger(most, 0.0f), 0.0f);
+        const float cosine = inverse_sqrt(1.0f + tan2), sine = square_root(tan2) * cosine * 1.000002f;
+        constexpr float turn = 2e-6f;
+        caps.centre[0][i] = x;
+        caps.centre[1][i] = y;
+        caps.centre[2][i] = z;
+        caps.cos[i] = cosine - turn * sine;
+        caps.sin[i] = sine + turn * cosine;
+        caps.narrow[i] = select(in_range, select(is_narrow, 1.0f, 0.0f), 0.0f);
+    }
+}
+
+/// Upper bounds of max(0, cos) between unit `v` and the directions of each cap. 1 for one that is not narrow.
+inline void clamped_max_cosines(const glm::vec3& v, const DirectionCaps& caps, Lanes& cosines) {
+    for (int i = 0; i < lane_count; ++i) {
+        const float cx = caps.centre[0][i], cy = caps.centre[1][i], cz = caps.centre[2][i];
+        const float along = v.x * cx + v.y * cy + v.z * cz;
+        const float x = v.y * cz - v.z * cy, y = v.z * cx - v.x * cz, z = v.x * cy - v.y * cx;
+        const float beside = square_root(x * x + y * y + z * z);
+        const float c = larger(along * caps.cos[i] + beside * caps.sin[i] + 2e-6f, 0.0f);
+        const bool inside = smaller(caps.cos[i] - 2e-6f - along, caps.narrow[i] - 0.5f) <= 0.0f;
+        cosines[i] = select(inside, 1.0f, smaller(c, 1.0f));
+    }
+}
+
+/// Lower bounds of the same. 0 for a cap that is not narrow.
+inline void clamped_min_cosines(const glm::vec3& v, const DirectionCaps& caps, Lanes& cosines) {
+    for (int i = 0; i < lane_count; ++i) {
+        const float cx = caps.centre[0][i], cy = caps.centre[1][i], cz = caps.centre[2][i];
+        const float along = v.x * cx + v.y * cy + v.z * cz;
+        const float x = v.y * cz - v.z * cy, y = v.z * cx - v.x * cz, z = v.x * cy - v.y * cx;
+        const float beside = square_root(x * x + y * y + z * z);
+        const float c = along * caps.cos[i] - beside * caps.sin[i] - 2e-6f;
+        cosines[i] = select(c * caps.narrow[i] > 0.0f, c, 0.0f);
+    }
+}
+
+}  // namespace lightcuts::detail
