@@ -72,6 +72,8 @@ Json to_json(const ErrorFigures& figures) {
     json["relative_bias"] = finite_or_null(figures.relative_bias);
     json["max_relative"] = finite_or_null(figures.max_relative);
     json["p999_relative"] = finite_or_null(figures.p999_relative);
+    json["max_step"] = finite_or_null(figures.max_step);
+    json["p999_step"] = finite_or_null(figures.p999_step);
     return json;
 }
 
