@@ -74,14 +74,15 @@ std::string figure_text(const EqualTime::Figure& f) {
 
 void print_header() {
     std::printf("At the time in which lightcuts reach a relative RMSE of 2 %%:\n");
-    std::printf("%-28s %-28s %9s %9s | %-40s | 99.9th percentile\n", "", "", "", "exhaust.", "relative RMSE");
-    std::printf("%-28s %-28s %9s %9s | %10s %21s %7s | %10s %21s %7s\n", "scene", "method", "seconds", "seconds",
+    std::printf("%-34s %-30s %9s %9s | %-40s | 99.9th percentile\n", "", "", "", "exhaust.", "relative RMSE");
+    std::printf("%-34s %-30s %9s %9s | %10s %21s %7s | %10s %21s %7s\n", "scene", "method", "seconds", "seconds",
                 "lightcuts", "best other", "ratio", "lightcuts", "best other", "ratio");
+    std::fflush(stdout);
 }
 
 void print_rows(const SceneMeasurement& scene) {
     for (const EqualTime& row : equal_times(scene)) {
-        std::printf("%-28s %-28s %9.4f %9.3f | %s | %s%s\n", scene.scene.name.c_str(), row.curve.c_str(), row.seconds,
+        std::printf("%-34s %-30s %9.4f %9.3f | %s | %s%s\n", scene.scene.name.c_str(), row.curve.c_str(), row.seconds,
                     row.exhaustive_seconds, figure_text(row.relative_rmse).c_str(),
                     figure_text(row.p999_relative).c_str(), row.reached ? "" : "  2 % not reached");
     }

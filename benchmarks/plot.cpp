@@ -9,7 +9,7 @@ namespace benchmark {
 
 namespace {
 
-constexpr double width = 720, height = 400;
+constexpr double width = 780, height = 400;
 constexpr double left = 66, right = 500, top = 34, bottom = 350;  ///< of the axes
 constexpr std::array colors = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8a6d3b", "#555555"};
 
@@ -38,7 +38,7 @@ public:
         const auto [low, high] = std::minmax_element(values.begin(), values.end());
         low_ = std::log10(*low);
         high_ = std::log10(*high);
-        const double room = std::max(0.04 * (high_ - low_), 0.1);
+        const double room = std::max(0.07 * (high_ - low_), 0.1);
         low_ -= room;
         high_ += room;
     }
@@ -87,14 +87,20 @@ std::string axes(const Plot& plot, const Axis& x, const Axis& y) {
     return svg;
 }
 
-std::string curve(const PlotCurve& drawn, const char* color, double least_y, const Axis& x, const Axis& y) {
+/// `right_labels`: they stand above to the right of their points, else below to the left; where curves run side by
+/// side, each is readable if its neighbour's are on the other side.
+std::string curve(const PlotCurve& drawn, const char* color, bool right_labels, double least_y, const Axis& x,
+                  const Axis& y) {
+    const std::string style = formatted("font-size=\"10\" fill=\"%s\"%s", color,
+                                        right_labels ? "" : " text-anchor=\"end\"");
     std::string path, marks;
     for (const PlotPoint& p : drawn.points) {
         if (!is_drawn(p)) continue;
         const double px = x.pixel(p.x), py = y.pixel(std::max(p.y, least_y));
         path += formatted("%s%.1f,%.1f", path.empty() ? "" : " ", px, py);
         marks += formatted("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3\" fill=\"%s\"/>\n", px, py, color);
-        marks += text_at(px + 5, py - 5, formatted("font-size=\"10\" fill=\"%s\"", color).c_str(), p.label);
+        marks += right_labels ? text_at(px + 5, py - 5, style.c_str(), p.label)
+                              : text_at(px - 5, py + 12, style.c_str(), p.label);
     }
     return "<polyline fill=\"none\" stroke-width=\"1.6\" stroke=\"" + std::string(color) + "\" points=\"" + path +
            "\"/>\n" + marks;
@@ -134,7 +140,7 @@ std::string to_svg(const Plot& plot) {
     }
     for (std::size_t i = 0; i < plot.curves.size(); ++i) {
         const char* color = colors[i % colors.size()];
-        svg += curve(plot.curves[i], color, plot.least_y, x, y);
+        svg += curve(plot.curves[i], color, i % 2 == 0, plot.least_y, x, y);
         svg += legend_entry(i, color, "", plot.curves[i].name);
     }
     return svg + "</svg>\n";

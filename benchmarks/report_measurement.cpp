@@ -1,5 +1,6 @@
 #include "report_measurement.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <cstdio>
 #include <memory>
@@ -42,6 +43,15 @@ private:
     mutable std::atomic<std::int64_t> nanoseconds_{0};
 };
 
+/// No light at all.
+class BlackShader final : public render::Shader {
+public:
+    std::unique_ptr<Scratch> make_scratch() const override { return std::make_unique<Scratch>(); }
+    void shade(std::span<const render::SurfacePoint>, std::span<render::Shading> out, Scratch&) const override {
+        std::fill(out.begin(), out.end(), render::Shading{});
+    }
+};
+
 /// Processor seconds of all threads.
 double process_seconds() {
     timespec now{};
@@ -52,13 +62,17 @@ double process_seconds() {
 class SceneRenderer {
 public:
     SceneRenderer(const ReportScene& scene, const MeasurementOptions& options)
-        : scene_(scene), runs_(options.runs), rays_(*scene.scene), view_(scene.camera, scene.width, scene.height),
-          surfaces_(*scene.scene, rays_, render::Shade::full) {
+        : scene_(*scene.scene), runs_(options.runs), rays_(scene_), view_(scene.camera, scene.width, scene.height),
+          surfaces_(scene_, rays_, render::Shade::full) {
         usual_.width = scene.width;
         usual_.height = scene.height;
         usual_.quiet = true;
+        emitted_ = render::render_picture(view_, surfaces_, BlackShader(), usual_).picture;
+        for (render::Material& material : scene_.materials) material.emission = glm::vec3(0.0f);
         usual_.aovs = {"cut_size"};
     }
+
+    const render::Picture& emitted() const { return emitted_; }
 
     /// As the renderer would be without options.
     render::Options usual() const { return usual_; }
@@ -66,7 +80,7 @@ public:
     Measurement run(const render::Options& options) const {
         Measurement result;
         const double start = process_seconds();
-        const auto shader = render::make_shader(*scene_.scene, rays_, options);
+        const auto shader = render::make_shader(scene_, rays_, options);
         result.prepare_seconds = process_seconds() - start;
         std::vector<double> times;
         do {
@@ -84,12 +98,13 @@ public:
     }
 
 private:
-    const ReportScene& scene_;
+    render::Scene scene_;  ///< its emitters are black once `emitted_` is rendered
     int runs_;
     render::RayScene rays_;
     render::View view_;
     render::SurfaceFinder surfaces_;
     render::Options usual_;
+    render::Picture emitted_;
 };
 
 std::vector<double> values_of(const ReportMethod& method, const MeasurementOptions& options) {
@@ -117,6 +132,7 @@ SceneMeasurement measure(const ReportScene& scene, const MeasurementOptions& opt
     result.scene = scene;
     arena.execute([&] {
         const SceneRenderer renderer(scene, options);
+        result.emitted = renderer.emitted();
         start("exhaustive");
         render::Options exhaustive = renderer.usual();
         exhaustive.method = "exhaustive";

@@ -21,7 +21,7 @@ struct Measurement {
     double rays_per_pixel = 0;  ///< shadow rays
     double cut_size = 0;        ///< clusters or lights a point, mean
     render::ErrorFigures error;
-    render::Picture picture;  ///< with the layer `cut_size`
+    render::Picture picture;  ///< reflected light alone, with the layer `cut_size`
 };
 
 struct Curve {
@@ -31,7 +31,8 @@ struct Curve {
 
 struct SceneMeasurement {
     ReportScene scene;
-    Measurement exhaustive;  ///< the reference
+    render::Picture emitted;  ///< what is seen of the emitters themselves
+    Measurement exhaustive;   ///< the reference
     std::vector<Curve> curves;
 };
 
@@ -46,6 +47,8 @@ std::size_t setting_count(const MeasurementOptions& options);
 
 /// Measures all methods. `start` is called with a description before each setting.
 /// Only the method's own work is timed, not eye rays, which are the same for all. What takes seconds is run once.
+/// Errors are of reflected light: the radiance of emitters in view is no method's work, and often so bright that the
+/// rest would not count.
 SceneMeasurement measure(const ReportScene& scene, const MeasurementOptions& options,
                          const std::function<void(const std::string&)>& start);
 

@@ -21,11 +21,11 @@ void error_ratio(Options& options, double value) {
 }  // namespace
 
 std::span<const ReportMethod> report_methods() {
-    static const std::vector<double> ratios = {0.16, 0.08, 0.04, 0.02, 0.01, 0.005};
-    static const std::vector<double> counts = {4, 16, 64, 256, 1024, 4096};
+    static const std::vector<double> ratios = {0.32, 0.16, 0.08, 0.04, 0.02, 0.01, 0.005};
+    static const std::vector<double> counts = {4, 16, 64, 256, 1024};
     // A method joins by a line.
     static const std::vector<ReportMethod> methods = {
-        {"Ward", "ward", "threshold", ward_threshold, {0.5, 0.2, 0.1, 0.05, 0.02}},
+        {"Ward", "ward", "threshold", ward_threshold, {0.5, 0.2, 0.1, 0.05}},
         {"power", "power", "samples", samples, counts},
         {"lightcuts", "lightcuts", "error ratio", error_ratio<1>, ratios},
         {"lightcuts, 8 representatives", "lightcuts", "error ratio", error_ratio<8>, ratios},

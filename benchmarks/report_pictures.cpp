@@ -40,6 +40,12 @@ std::string figure(const Picture& picture, const std::vector<glm::vec3>& colors,
            "</figcaption></figure>\n";
 }
 
+Picture sum(const Picture& a, const Picture& b) {
+    Picture result(a.width, a.height);
+    for (std::size_t i = 0; i < a.size(); ++i) result.pixels[i] = a.pixels[i] + b.pixels[i];
+    return result;
+}
+
 Picture difference(const Picture& picture, const Picture& reference, float factor) {
     Picture result(picture.width, picture.height);
     for (std::size_t i = 0; i < picture.size(); ++i) {
@@ -93,17 +99,18 @@ std::vector<const Measurement*> equal_time_settings(const SceneMeasurement& scen
 
 std::string pictures_html(const SceneMeasurement& scene) {
     const Picture& reference = scene.exhaustive.picture;
-    const render::ToneCurve curve = render::tone_curve(reference);
+    const auto seen = [&](const Picture& reflected) { return sum(reflected, scene.emitted); };
+    const render::ToneCurve curve = render::tone_curve(seen(reference));
     char caption[256];
     std::snprintf(caption, sizeof caption, "exhaustive sum, %.3g s", scene.exhaustive.seconds);
-    std::string html = "<p>" + figure(reference, tone_mapped(reference, curve), caption) + "</p>\n";
+    std::string html = "<p>" + figure(reference, tone_mapped(seen(reference), curve), caption) + "</p>\n";
     const std::vector<const Measurement*> settings = equal_time_settings(scene);
     for (std::size_t i = 0; i < settings.size(); ++i) {
         const Measurement& m = *settings[i];
         const ReportMethod& method = *scene.curves[i].method;
         std::snprintf(caption, sizeof caption, "%s, %s %s: %.3g s, relative RMSE %.3g %%", method.name,
                       method.parameter, as_text(m.value).c_str(), m.seconds, 100.0 * m.error.relative_rmse);
-        html += "<div>" + figure(m.picture, tone_mapped(m.picture, curve), caption);
+        html += "<div>" + figure(m.picture, tone_mapped(seen(m.picture), curve), caption);
         html += figure(m.picture, tone_mapped(difference(m.picture, reference, 16.0f), curve), "16 x difference");
         html += cut_size_map(m) + "</div>\n";
     }
