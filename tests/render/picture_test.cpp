@@ -174,6 +174,7 @@ TEST(ErrorFigures, StepsAreThoseThatTheReferenceDoesNotHave) {
     for (std::size_t i = 4; i < picture.size(); ++i) picture.pixels[i] += 0.25f;
     EXPECT_NEAR(render::compare(picture, reference).max_step, 0.25, 1e-6);
     // The last pixel of a row and the first of the next are no neighbours.
+    std::fill(reference.pixels.begin(), reference.pixels.end(), glm::vec3(1.0f));
     picture = reference;
     picture.pixels[4] += 3.0f;
     picture.pixels[3] -= 3.0f;
