@@ -109,9 +109,8 @@ private:
 
 std::vector<double> values_of(const ReportMethod& method, const MeasurementOptions& options) {
     std::vector<double> values;
-    for (std::size_t i = options.quick ? 1 : 0; i < method.values.size(); i += options.quick ? 2 : 1) {
-        values.push_back(method.values[i]);
-    }
+    const std::size_t step = options.quick && method.values.size() > 1 ? 2 : 1;
+    for (std::size_t i = step - 1; i < method.values.size(); i += step) values.push_back(method.values[i]);
     return values;
 }
 

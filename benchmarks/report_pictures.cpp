@@ -103,7 +103,7 @@ std::string pictures_html(const SceneMeasurement& scene) {
     const render::ToneCurve curve = render::tone_curve(seen(reference));
     char caption[256];
     std::snprintf(caption, sizeof caption, "exhaustive sum, %.3g s", scene.exhaustive.seconds);
-    std::string html = "<p>" + figure(reference, tone_mapped(seen(reference), curve), caption) + "</p>\n";
+    std::string html = "<div>" + figure(reference, tone_mapped(seen(reference), curve), caption) + "</div>\n";
     const std::vector<const Measurement*> settings = equal_time_settings(scene);
     for (std::size_t i = 0; i < settings.size(); ++i) {
         const Measurement& m = *settings[i];
