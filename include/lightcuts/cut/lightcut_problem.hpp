@@ -305,12 +305,16 @@ private:
         }
         for (std::size_t i = 0; i < count; ++i) {
             node& n = *candidates[i]->node;
-            double& p = candidates[i]->priority;
             lower_bound(n, units[i], *clusters[i]);
             n.bounded = true;
-            p = priority(n);
-            if constexpr (TwoStagePolicy<Policy>) {
-                // The dear bound is worth it only where it may change the decision.
+            candidates[i]->priority = priority(n);
+        }
+        if constexpr (TwoStagePolicy<Policy>) {
+            // The dear bound is worth it only where it may change the decision.
+            if (!(policy_.doubt > 1.0)) return;
+            for (std::size_t i = 0; i < count; ++i) {
+                node& n = *candidates[i]->node;
+                double& p = candidates[i]->priority;
                 if (p > threshold() && p < policy_.doubt * threshold()) {
                     lower_bound(n, policy_.tight(receiver_.material, *clusters[i], receiver_.position), *clusters[i]);
                     p = priority(n);
