@@ -354,7 +354,7 @@ private:
         });
     }
 
-    const Forest& forest_;
+    Forest forest_;
     const R& receiver_;
     const Oracle& oracle_;
     const Policy& policy_;
