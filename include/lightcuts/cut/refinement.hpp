@@ -116,10 +116,12 @@ public:
     template <RefinementProblem P>
     void absorb(const P& problem) {
         const double rest = rest_below * problem.threshold();
-        for (; absorbed_ < nodes_.size(); ++absorbed_) {
-            const Node& node = nodes_[absorbed_];
+        const std::size_t begin = absorbed_;
+        absorbed_ = nodes_.size();
+        for (std::size_t i = begin; i < absorbed_; ++i) {
+            const Node& node = nodes_[i];
             const bool rests = is_settled(problem, node) || (tells_growth<P> && problem.priority(node) <= rest);
-            (rests ? resting_ : active_).push_back(static_cast<std::uint32_t>(absorbed_));
+            (rests ? resting_ : active_).push_back(static_cast<std::uint32_t>(i));
         }
     }
 
