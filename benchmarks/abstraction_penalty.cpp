@@ -198,7 +198,7 @@ private:
 
     /// Traces the shadow rays of new nodes, which join the frontier.
     void absorb() {
-        for (; absorbed_ < nodes_.size(); ++absorbed_) {
+        for (const std::size_t end = nodes_.size(); absorbed_ < end; ++absorbed_) {
             Node& node = nodes_[absorbed_];
             if (node.queried && !is_lit(point_->shadow_origin, light_of(node.representative).position)) {
                 node.terms = node.terms * 0.0f;
