@@ -123,8 +123,8 @@ void certify(const LaneVectors& v, const OffsetBlock& b, Lanes& step, Lanes& bes
     }
 }
 
-/// Two certificates from the centre, as `QuickKernel`, for each lane: bounds (v.p)+ / |p|^K. Zero where the support
-/// says that nothing lies in front.
+/// Two certificates from the centre, for each lane: bounds (v.p)+ / |p|^K. Zero where the support says that nothing
+/// lies in front.
 template <int K>
 void lane_power(const LaneVectors& v, const LaneSupport& s, const OffsetBlock& b, Lanes& bound) {
     constexpr float k = K;

@@ -62,7 +62,7 @@ public:
     LightcutProblem(const Forest& forest, const R& receiver, const Oracle& oracle, const Policy& policy,
                     const LightcutOptions& options, CutTotals<S>& totals, std::vector<VisibilityQuery>& queries)
         : forest_(forest), receiver_(receiver), oracle_(oracle), policy_(policy), options_(options), totals_(totals),
-          queries_(queries) {}
+          queries_(queries), threshold_(static_cast<double>(options.error_ratio)) {}
 
     void roots(std::vector<node>& out) {
         totals_ = {};
@@ -189,7 +189,7 @@ public:
         return largest;
     }
 
-    double threshold() const { return static_cast<double>(options_.error_ratio); }
+    double threshold() const { return threshold_; }
 
     /// Clusters around the receiver, whose bounds are infinite, go by intensity over squared diagonal.
     bool before(const node& a, const node& b) const {
@@ -361,6 +361,7 @@ private:
     const LightcutOptions& options_;
     CutTotals<S>& totals_;
     std::vector<VisibilityQuery>& queries_;
+    double threshold_;
 };
 
 }  // namespace lightcuts
