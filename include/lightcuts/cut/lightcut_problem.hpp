@@ -62,7 +62,7 @@ public:
     LightcutProblem(const Forest& forest, const R& receiver, const Oracle& oracle, const Policy& policy,
                     const LightcutOptions& options, CutTotals<S>& totals, std::vector<VisibilityQuery>& queries)
         : forest_(forest), receiver_(receiver), oracle_(oracle), policy_(policy), options_(options), totals_(totals),
-          queries_(queries) {}
+          queries_(queries), threshold_(static_cast<double>(options.error_ratio)) {}
 
     void roots(std::vector<node>& out) {
         totals_ = {};
@@ -189,7 +189,7 @@ public:
         return largest;
     }
 
-    double threshold() const { return static_cast<double>(options_.error_ratio); }
+    double threshold() const { return threshold_; }
 
     /// Clusters around the receiver, whose bounds are infinite, go by intensity over squared diagonal.
     bool before(const node& a, const node& b) const {
@@ -305,12 +305,16 @@ private:
         }
         for (std::size_t i = 0; i < count; ++i) {
             node& n = *candidates[i]->node;
-            double& p = candidates[i]->priority;
             lower_bound(n, units[i], *clusters[i]);
             n.bounded = true;
-            p = priority(n);
-            if constexpr (TwoStagePolicy<Policy>) {
-                // The dear bound is worth it only where it may change the decision.
+            candidates[i]->priority = priority(n);
+        }
+        if constexpr (TwoStagePolicy<Policy>) {
+            // The dear bound is worth it only where it may change the decision.
+            if (!(policy_.doubt > 1.0)) return;
+            for (std::size_t i = 0; i < count; ++i) {
+                node& n = *candidates[i]->node;
+                double& p = candidates[i]->priority;
                 if (p > threshold() && p < policy_.doubt * threshold()) {
                     lower_bound(n, policy_.tight(receiver_.material, *clusters[i], receiver_.position), *clusters[i]);
                     p = priority(n);
@@ -366,13 +370,14 @@ private:
         });
     }
 
-    const Forest& forest_;
+    Forest forest_;
     const R& receiver_;
     const Oracle& oracle_;
     const Policy& policy_;
     const LightcutOptions& options_;
     CutTotals<S>& totals_;
     std::vector<VisibilityQuery>& queries_;
+    double threshold_;
 };
 
 }  // namespace lightcuts
