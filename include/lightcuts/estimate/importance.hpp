@@ -1,0 +1,136 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+
+#include "../bound/policy.hpp"
+#include "../material/receiver.hpp"
+#include "../tree/light_cluster.hpp"
+
+namespace lightcuts {
+
+/// How much a cluster may matter at a receiver: what chances of clusters are made of. Knows nothing of shadows.
+struct Importance {
+    /// What the cluster's bound amounts to at its mean distance. Zero only where the bound is; infinite only where the
+    /// bound is, since the cluster may touch the receiver.
+    double expected = 0.0;
+    /// Intensity over mean squared distance, finite: what clusters are compared by where one of them is infinite.
+    double irradiance = 0.0;
+    /// Upper bound of what the cluster contributes, summed over the channels.
+    double bound = 0.0;
+
+    /// True if no light of the cluster can contribute.
+    bool is_zero() const { return !(expected > 0.0); }
+    bool is_finite() const { return expected <= std::numeric_limits<double>::max(); }
+    /// The finite number to compare by, with others of the same `by_irradiance`.
+    double weight(bool by_irradiance) const { return by_irradiance ? (is_zero() ? 0.0 : irradiance) : expected; }
+};
+
+namespace detail {
+
+/// Mean squared distance from `point` to the points of a cluster's box; of distant lights 1. Positive.
+template <Light L>
+double mean_distance2(const LightCluster<L>& cluster, const glm::vec3& point) {
+    if constexpr (DirectionalLight<L>) {
+        return 1.0;
+    } else {
+        constexpr double least = 1e-60;
+        const glm::dvec3 offset = centre(cluster.box) - glm::dvec3(point);
+        const double mean = dot(offset, offset) + diagonal2(cluster.box) / 12.0;
+        return mean > least ? mean : least;
+    }
+}
+
+/// The importance of a cluster whose bound per unit intensity is `unit`.
+template <Light L, class S>
+Importance importance_of(const LightCluster<L>& cluster, const S& unit, const glm::vec3& point) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    Importance importance;
+    for (int c = 0; c < channels_of<S>; ++c) {
+        const auto u = static_cast<double>(channel(unit, c)), i = static_cast<double>(channel(cluster.intensity, c));
+        if (u > 0.0 && i > 0.0) importance.bound += u * i;
+    }
+    if (!(importance.bound > 0.0)) return importance;
+    const double mean2 = mean_distance2(cluster, point);
+    importance.irradiance = channel_sum(cluster.intensity) / mean2;
+    importance.expected = importance.bound;
+    if constexpr (inverse_square<L>) {
+        // A bound counts every light at the least distance. At the mean one, large clusters nearby are worth no more
+        // than what they hold.
+        const double least2 = min_distance2(offsets(cluster.box, point));
+        if (importance.bound < infinity && least2 > 0.0) importance.expected *= least2 / mean2;
+    }
+    return importance;
+}
+
+/// The importances of `N` clusters of one kind. The same whenever the same clusters are asked for together.
+template <std::size_t N, class Policy, class M, Light L>
+std::array<Importance, N> importances(const Policy& policy, const Receiver<M>& receiver,
+                                      const std::array<const LightCluster<L>*, N>& clusters) {
+    using S = spectrum_of<L>;
+    std::array<S, N> units;
+    if constexpr (requires {
+                      policy.quick_many(receiver.material, receiver.position, clusters.data(), N, units.data());
+                  }) {
+        policy.quick_many(receiver.material, receiver.position, clusters.data(), N, units.data());
+    } else {
+        for (std::size_t i = 0; i < N; ++i) {
+            units[i] = policy.quick(receiver.material, *clusters[i], receiver.position);
+        }
+    }
+    std::array<Importance, N> all;
+    for (std::size_t i = 0; i < N; ++i) all[i] = importance_of(*clusters[i], units[i], receiver.position);
+    return all;
+}
+
+/// Of both children of a node. pre: not a leaf.
+template <class Policy, class M, class Tree>
+std::array<Importance, 2> child_importances(const Policy& policy, const Receiver<M>& receiver, const Tree& tree,
+                                            std::uint32_t node) {
+    const std::span<const typename Tree::cluster> clusters = tree.clusters();
+    return importances<2>(policy, receiver,
+                          std::array{&clusters[tree.topology().left(node)], &clusters[tree.topology().right(node)]});
+}
+
+/// The importances of a forest's roots; zero for a tree without lit lights.
+template <class Policy, class M, class Forest>
+std::array<Importance, Forest::kinds> root_importances(const Policy& policy, const Receiver<M>& receiver,
+                                                       const Forest& forest) {
+    std::array<Importance, Forest::kinds> roots{};
+    forest.for_each([&](std::uint32_t kind, const auto& tree) {
+        if (tree.empty()) return;
+        roots[kind] = importances<1>(policy, receiver, std::array{&tree.clusters()[tree.topology().root()]})[0];
+    });
+    return roots;
+}
+
+/// The share of a choice that goes by irradiance alone. A bound may be far above what a cluster does: without such a
+/// share its siblings would be drawn too seldom, and outshine everything when they are [Hesterberg 1995, defensive
+/// mixtures].
+inline constexpr double defensive_share = 0.25;
+
+/// The chances of clusters, in proportion to their importances but for the defensive share. Zero only where the
+/// importance is. They sum to 1, or to 0 if all importances are zero.
+template <std::size_t N>
+std::array<double, N> chances_of(const std::array<Importance, N>& importances) {
+    double expected = 0.0, irradiance = 0.0;
+    for (const Importance& i : importances) {
+        expected += i.expected;
+        irradiance += i.weight(true);
+    }
+    std::array<double, N> chances{};
+    if (!(expected > 0.0)) return chances;
+    const double share = expected <= std::numeric_limits<double>::max() ? defensive_share : 1.0;
+    for (std::size_t i = 0; i < N; ++i) {
+        chances[i] = share * (importances[i].weight(true) / irradiance);
+        if (share < 1.0) chances[i] += (1.0 - share) * (importances[i].expected / expected);
+    }
+    return chances;
+}
+
+}  // namespace detail
+
+}  // namespace lightcuts
