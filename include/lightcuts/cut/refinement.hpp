@@ -18,7 +18,9 @@ namespace lightcuts {
 /// - `priority(node)`: not negative, possibly infinite, never NaN. Use bounds, never what an estimate happened to
 ///   show: that biases sums.
 /// - `threshold()`: nodes of a priority above it are refined. May change between rounds.
-/// - `split(node, out)`: appends the two nodes that replace it. `node` lies in `out`, which has room.
+/// - `split(node, out)`: appends the nodes that replace it: two, or fewer if some need not be in the cut. `node` lies
+/// in
+///   `out`, which has room.
 /// - `before(a, b)`: a total order that breaks ties of priority, infinite ones above all.
 ///
 /// Optional:
