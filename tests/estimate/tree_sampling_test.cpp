@@ -1,6 +1,8 @@
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <set>
+#include <span>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -161,8 +163,8 @@ TEST(TreeSampling, DoesNotRunOutOfRandomBits) {
         for (std::uint64_t seed = 0; seed < 1000; ++seed) {
             std::array<double, 3> numbers{0.0, 0.25, 0.5};
             scratch.draws.clear();
-            detail::descend(tree, 0, tree.topology().root(), receiver, TwoStageBounds{}, numbers, chance, 1.0, seed,
-                            scratch);
+            scratch.visits.push_back({tree.topology().root(), 0, 3, 1.0, chance});
+            detail::descend(tree, 0, receiver, TwoStageBounds{}, std::span(numbers), seed, scratch);
             double weight = 0.0;
             for (const auto& draw : scratch.draws) {
                 found.insert(draw.light);
@@ -179,6 +181,31 @@ TEST(TreeSampling, DoesNotRunOutOfRandomBits) {
 TEST(TreeSampling, IsUnbiased) {
     expect_unbiased([](const auto& forest, const auto& receiver, const auto& oracle, std::uint64_t seed,
                        auto& scratch) { return tree_sampling(forest, receiver, oracle, 8, seed, scratch); });
+}
+
+// Many nodes are bounded at once: that must not change what the probability of a light is.
+TEST(TreeSampling, WeighsLightsByTheProbabilitiesThatAreStated) {
+    Room<V> room(4);
+    Random random(4);
+    auto oriented = room.oriented(400);
+    for (std::size_t i = 0; i < oriented.size(); i += 2) oriented[i].axis = V(random.on_sphere());
+    const auto omni = room.omni(200);
+    const LightTree a(oriented);
+    const LightTree b(omni);
+    const LightForest forest(a, b);
+    EstimateScratch<V> scratch;
+    std::size_t several = 0;
+    for (const auto& receiver : room.glossy_receivers(20)) {
+        const auto probabilities = probabilities_of(forest, receiver);
+        tree_sampling(forest, receiver, AlwaysVisible{}, 64, 1, scratch);
+        for (const auto& draw : scratch.draws) {
+            const double count = draw.weight * 64.0 * probabilities[draw.kind][draw.light];
+            EXPECT_NEAR(count, std::round(count), 1e-9);
+            EXPECT_GE(count, 0.5);
+            if (count > 1.5) ++several;
+        }
+    }
+    EXPECT_GT(several, 0u);
 }
 
 TEST(TreeSampling, IsExactWithOneLight) {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "descent.hpp"
+#include "strata.hpp"
 
 namespace lightcuts {
 
@@ -51,35 +51,6 @@ bool is_split_later(const Stratum& a, const Stratum& b) {
     return a.kind != b.kind ? a.kind > b.kind : a.node > b.node;
 }
 
-/// Draws `samples` lights from the scratch's strata: one from each, and the rest in proportion to importance from
-/// those that hold more than one light.
-template <class Forest, class M, class Policy>
-void draw_from_strata(const Forest& forest, const Receiver<M>& receiver, const Policy& policy, std::uint32_t samples,
-                      std::uint64_t seed, EstimateScratch<typename Forest::spectrum>& scratch) {
-    const auto& strata = scratch.strata;
-    bool by_irradiance = false;
-    for (const auto& s : strata) by_irradiance = by_irradiance || !s.importance.is_finite();
-    const auto weight_of = [&](const auto& s) { return s.leaf ? 0.0 : s.importance.weight(by_irradiance); };
-    double total = 0.0;
-    for (const auto& s : strata) total += weight_of(s);
-    const double rest = samples > strata.size() ? static_cast<double>(samples - strata.size()) : 0.0;
-    const double rate = total > 0.0 ? rest / total : 0.0;
-    double before = 0.0;
-    for (const auto& s : strata) {
-        const double behind = before + weight_of(s);
-        const auto more = static_cast<std::size_t>(std::floor(behind * rate) - std::floor(before * rate));
-        const std::size_t count = 1 + more;
-        before = behind;
-        const std::span<double> numbers = stratified(scratch.numbers, count, [&](std::size_t k) {
-            return to_unit(hash_keys(seed, receiver.id, s.kind, s.node, k));
-        });
-        forest.visit(s.kind, [&](const auto& tree) {
-            descend(tree, s.kind, s.node, receiver, policy, numbers, 1.0, 1.0 / static_cast<double>(count), seed,
-                    scratch);
-        });
-    }
-}
-
 }  // namespace detail
 
 /// Estimates the sum over all lights by descending into *both* children of every node whose relative deviation is above
@@ -98,7 +69,6 @@ Estimate<typename Forest::spectrum> adaptive_splitting(const Forest& forest, con
     using S = typename Forest::spectrum;
     using Stratum = typename EstimateScratch<S>::Stratum;
     const auto least = static_cast<double>(threshold);
-    scratch.draws.clear();
     auto& heap = scratch.strata;
     heap.clear();
     const auto add = [&](const auto& tree, std::uint32_t kind, std::uint32_t node, const Importance& importance) {

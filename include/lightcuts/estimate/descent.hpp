@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "estimate.hpp"
 #include "importance.hpp"
@@ -21,50 +22,66 @@ inline double remainder_in(double u, double begin, double length) {
     return r > 0.0 ? std::min(r, 1.0 - unit_roundoff) : 0.0;
 }
 
-/// Sends the random numbers `numbers`, which rise within [0, 1), down the tree from a node: at each node a number
-/// chooses the child into whose part of [0, 1) it falls, the parts being in proportion to the children's importances,
-/// and goes on as its place within that part. So what was stratified stays so. Numbers that meet at a leaf become one
-/// drawn light; those below whose node nothing can contribute are dropped.
-/// `chance`: of the part of [0, 1) from which the numbers were rescaled before. `weight`: of each number; it is divided
-/// by the chance of the descent.
-/// cost: two importances a node visited, however many numbers visit it.
+/// Sends the random numbers of the scratch's visits down the tree: at each node a number chooses the child into whose
+/// part of [0, 1) it falls, the parts being the children's chances, and goes on as its place within that part. So what
+/// was stratified stays so. Numbers that meet at a leaf become one drawn light; those below whose node nothing can
+/// contribute are dropped. `scratch.visits` says which of `numbers`, rising within [0, 1), start where.
+/// cost: two importances a node visited, however many numbers visit it; found for four nodes at a time.
 template <class Tree, class M, class Policy>
-void descend(const Tree& tree, std::uint32_t kind, std::uint32_t node, const Receiver<M>& receiver,
-             const Policy& policy, std::span<double> numbers, double chance, double weight, std::uint64_t seed,
-             EstimateScratch<typename Tree::spectrum>& scratch) {
+void descend(const Tree& tree, std::uint32_t kind, const Receiver<M>& receiver, const Policy& policy,
+             std::span<double> numbers, std::uint64_t seed, EstimateScratch<typename Tree::spectrum>& scratch) {
     using Visit = typename EstimateScratch<typename Tree::spectrum>::Visit;
+    using Cluster = typename Tree::cluster;
+    constexpr std::size_t most = lane_count / 2;
     const ClusterTree& topology = tree.topology();
-    scratch.visits.clear();
-    scratch.visits.push_back({node, 0, static_cast<std::uint32_t>(numbers.size()), 1.0, chance});
+    std::array<Visit, most> inner;
+    std::array<const Cluster*, 2 * most> children;
+    std::array<Importance, 2 * most> importances;
     while (!scratch.visits.empty()) {
-        const Visit visit = scratch.visits.back();
-        scratch.visits.pop_back();
-        const std::span<double> own = numbers.subspan(visit.begin, visit.end - visit.begin);
-        if (own.empty()) continue;
-        if (topology.is_leaf(visit.node)) {
-            scratch.draws.push_back(
-                {topology.item(visit.node), kind, weight * static_cast<double>(own.size()) / visit.probability});
-            continue;
-        }
-        const std::array<double, 2> part = chances_of(child_importances(policy, receiver, tree, visit.node));
-        if (!(part[0] + part[1] > 0.0)) continue;
-        double resolution = visit.resolution;
-        if (resolution < least_resolution) {
-            for (std::size_t i = 0; i < own.size(); ++i) {
-                own[i] = to_unit(hash_keys(seed, receiver.id, kind, visit.node, i));
+        // Step 1: take nodes that may be bounded together, and the leaves on the way.
+        std::size_t count = 0;
+        while (!scratch.visits.empty() && count < most) {
+            const Visit& visit = scratch.visits.back();
+            const bool leaf = topology.is_leaf(visit.node);
+            if (visit.begin == visit.end) {
+                // Nobody came.
+            } else if (leaf) {
+                scratch.draws.push_back({topology.item(visit.node), kind, visit.weight * (visit.end - visit.begin)});
+            } else {
+                if (count > 0 && has_wide_child(tree, visit.node) != has_wide_child(tree, inner[0].node)) break;
+                children[2 * count] = &tree.clusters()[topology.left(visit.node)];
+                children[2 * count + 1] = &tree.clusters()[topology.right(visit.node)];
+                inner[count++] = visit;
             }
-            std::sort(own.begin(), own.end());
-            resolution = 1.0;
+            scratch.visits.pop_back();
         }
-        const auto middle = std::lower_bound(own.begin(), own.end(), part[0]);
-        for (auto u = own.begin(); u != middle; ++u) *u = remainder_in(*u, 0.0, part[0]);
-        for (auto u = middle; u != own.end(); ++u) *u = remainder_in(*u, part[0], part[1]);
-        const auto split = visit.begin + static_cast<std::uint32_t>(middle - own.begin());
-        // The left child is visited first: lights come in the order of the tree.
-        scratch.visits.push_back(
-            {topology.right(visit.node), split, visit.end, visit.probability * part[1], resolution * part[1]});
-        scratch.visits.push_back(
-            {topology.left(visit.node), visit.begin, split, visit.probability * part[0], resolution * part[0]});
+        // Step 2: bound their children side by side.
+        if (count == 0) continue;
+        find_importances(policy, receiver, std::span<const Cluster* const>(children.data(), 2 * count),
+                         importances.data());
+        // Step 3: share out their numbers.
+        for (std::size_t i = 0; i < count; ++i) {
+            const Visit& visit = inner[i];
+            const auto part = chances_of(std::array{importances[2 * i], importances[2 * i + 1]});
+            if (!(part[0] + part[1] > 0.0)) continue;
+            const std::span<double> own = numbers.subspan(visit.begin, visit.end - visit.begin);
+            double resolution = visit.resolution;
+            if (resolution < least_resolution) {
+                for (std::size_t k = 0; k < own.size(); ++k) {
+                    own[k] = to_unit(hash_keys(seed, receiver.id, kind, visit.node, k));
+                }
+                std::sort(own.begin(), own.end());
+                resolution = 1.0;
+            }
+            const auto middle = std::lower_bound(own.begin(), own.end(), part[0]);
+            for (auto u = own.begin(); u != middle; ++u) *u = remainder_in(*u, 0.0, part[0]);
+            for (auto u = middle; u != own.end(); ++u) *u = remainder_in(*u, part[0], part[1]);
+            const auto split = visit.begin + static_cast<std::uint32_t>(middle - own.begin());
+            scratch.visits.push_back(
+                {topology.left(visit.node), visit.begin, split, visit.weight / part[0], resolution * part[0]});
+            scratch.visits.push_back(
+                {topology.right(visit.node), split, visit.end, visit.weight / part[1], resolution * part[1]});
+        }
     }
 }
 
@@ -85,14 +102,12 @@ std::size_t choose(const std::array<double, N>& chances, double& u) {
     return chosen;
 }
 
-/// Rising random numbers, one in each of `count` equal parts of [0, 1).
-template <class Numbers, class Draw>
-std::span<double> stratified(Numbers& numbers, std::size_t count, Draw&& draw) {
-    numbers.resize(count);
+/// Appends rising random numbers, one in each of `count` equal parts of [0, 1).
+template <class Draw>
+void add_stratified(std::vector<double>& numbers, std::size_t count, Draw&& draw) {
     for (std::size_t k = 0; k < count; ++k) {
-        numbers[k] = remainder_in(static_cast<double>(k) + draw(k), 0.0, static_cast<double>(count));
+        numbers.push_back(remainder_in(static_cast<double>(k) + draw(k), 0.0, static_cast<double>(count)));
     }
-    return numbers;
 }
 
 /// radiance x weight, finite.

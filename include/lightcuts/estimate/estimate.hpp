@@ -37,12 +37,12 @@ struct EstimateScratch {
         std::uint32_t kind;
         double weight;
     };
-    /// A node that some of the random numbers have reached, and the chance of one to do so.
+    /// A node that some of the random numbers have reached.
     struct Visit {
         std::uint32_t node;
         std::uint32_t begin, end;  ///< of the numbers
-        double probability;
-        double resolution;  ///< the chance, counted from where the numbers were drawn
+        double weight;             ///< of each number: divided by its chance to come here
+        double resolution;         ///< that chance, counted from where the numbers were drawn
     };
     /// A node from which lights are drawn, apart from the others.
     struct Stratum {

@@ -5,8 +5,11 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <type_traits>
 
 #include "../bound/policy.hpp"
+#include "../core/assertion.hpp"
+#include "../core/lanes.hpp"
 #include "../material/receiver.hpp"
 #include "../tree/light_cluster.hpp"
 
@@ -66,33 +69,50 @@ Importance importance_of(const LightCluster<L>& cluster, const S& unit, const gl
     return importance;
 }
 
-/// The importances of `N` clusters of one kind. The same whenever the same clusters are asked for together.
-template <std::size_t N, class Policy, class M, Light L>
-std::array<Importance, N> importances(const Policy& policy, const Receiver<M>& receiver,
-                                      const std::array<const LightCluster<L>*, N>& clusters) {
+/// The importances of up to `lane_count` clusters of one kind: all[i] of *clusters[i].
+template <class Policy, class M, Light L>
+void find_importances(const Policy& policy, const Receiver<M>& receiver,
+                      std::span<const LightCluster<L>* const> clusters, Importance* all) {
     using S = spectrum_of<L>;
-    std::array<S, N> units;
+    LIGHTCUTS_ASSERT(clusters.size() <= lane_count);
+    std::array<S, lane_count> units;
     if constexpr (requires {
-                      policy.quick_many(receiver.material, receiver.position, clusters.data(), N, units.data());
+                      policy.quick_many(receiver.material, receiver.position, clusters.data(), clusters.size(),
+                                        units.data());
                   }) {
-        policy.quick_many(receiver.material, receiver.position, clusters.data(), N, units.data());
+        policy.quick_many(receiver.material, receiver.position, clusters.data(), clusters.size(), units.data());
     } else {
-        for (std::size_t i = 0; i < N; ++i) {
+        for (std::size_t i = 0; i < clusters.size(); ++i) {
             units[i] = policy.quick(receiver.material, *clusters[i], receiver.position);
         }
     }
-    std::array<Importance, N> all;
-    for (std::size_t i = 0; i < N; ++i) all[i] = importance_of(*clusters[i], units[i], receiver.position);
-    return all;
+    for (std::size_t i = 0; i < clusters.size(); ++i) {
+        all[i] = importance_of(*clusters[i], units[i], receiver.position);
+    }
 }
 
-/// Of both children of a node. pre: not a leaf.
+/// The importances of both children of a node. pre: not a leaf.
 template <class Policy, class M, class Tree>
 std::array<Importance, 2> child_importances(const Policy& policy, const Receiver<M>& receiver, const Tree& tree,
                                             std::uint32_t node) {
-    const std::span<const typename Tree::cluster> clusters = tree.clusters();
-    return importances<2>(policy, receiver,
-                          std::array{&clusters[tree.topology().left(node)], &clusters[tree.topology().right(node)]});
+    using Cluster = typename Tree::cluster;
+    const std::array<const Cluster*, 2> children{&tree.clusters()[tree.topology().left(node)],
+                                                 &tree.clusters()[tree.topology().right(node)]};
+    std::array<Importance, 2> both;
+    find_importances(policy, receiver, std::span<const Cluster* const>(children), both.data());
+    return both;
+}
+
+/// True if a child of the node has axes of several directions. Blocks are bounded another way if any of their clusters
+/// has: only nodes of which the same is true may share a block, or a chance would depend on who else is in it.
+template <class Tree>
+bool has_wide_child(const Tree& tree, std::uint32_t node) {
+    if constexpr (Tree::cluster::oriented) {
+        return !is_single(tree.clusters()[tree.topology().left(node)].cone) ||
+               !is_single(tree.clusters()[tree.topology().right(node)].cone);
+    } else {
+        return false;
+    }
 }
 
 /// The importances of a forest's roots; zero for a tree without lit lights.
@@ -102,7 +122,9 @@ std::array<Importance, Forest::kinds> root_importances(const Policy& policy, con
     std::array<Importance, Forest::kinds> roots{};
     forest.for_each([&](std::uint32_t kind, const auto& tree) {
         if (tree.empty()) return;
-        roots[kind] = importances<1>(policy, receiver, std::array{&tree.clusters()[tree.topology().root()]})[0];
+        using Cluster = typename std::remove_cvref_t<decltype(tree)>::cluster;
+        const Cluster* const root = &tree.clusters()[tree.topology().root()];
+        find_importances(policy, receiver, std::span<const Cluster* const>(&root, 1), &roots[kind]);
     });
     return roots;
 }

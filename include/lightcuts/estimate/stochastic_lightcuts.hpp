@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "../cut/refinement.hpp"
-#include "descent.hpp"
+#include "strata.hpp"
 
 namespace lightcuts {
 
@@ -78,15 +78,9 @@ Estimate<typename Forest::spectrum> stochastic_lightcuts(const Forest& forest, c
     using Stratum = typename EstimateScratch<typename Forest::spectrum>::Stratum;
     detail::BoundedCutProblem<Forest, M, Policy> problem(forest, receiver, policy);
     scratch.refinement.run(problem, {.max_nodes = samples});
-    scratch.draws.clear();
-    scratch.refinement.for_each([&](const Stratum& cluster) {
-        const std::span<double> number = detail::stratified(scratch.numbers, 1, [&](std::size_t) {
-            return to_unit(hash_keys(seed, receiver.id, cluster.kind, cluster.node));
-        });
-        forest.visit(cluster.kind, [&](const auto& tree) {
-            detail::descend(tree, cluster.kind, cluster.node, receiver, policy, number, 1.0, 1.0, seed, scratch);
-        });
-    });
+    scratch.strata.clear();
+    scratch.refinement.for_each([&](const Stratum& cluster) { scratch.strata.push_back(cluster); });
+    detail::draw_from_strata(forest, receiver, policy, samples, seed, scratch);
     return detail::estimate_draws(forest, receiver, oracle, scratch);
 }
 

@@ -101,8 +101,10 @@ Estimate<typename Forest::spectrum> tree_sampling(const Forest& forest, const Re
     scratch.draws.clear();
     const auto roots = detail::chances_of(detail::root_importances(policy, receiver, forest));
     if (!detail::any(roots)) return {};
-    std::span<double> numbers = detail::stratified(
-        scratch.numbers, samples, [&](std::size_t k) { return to_unit(hash_keys(seed, receiver.id, k)); });
+    scratch.numbers.clear();
+    detail::add_stratified(scratch.numbers, samples,
+                           [&](std::size_t k) { return to_unit(hash_keys(seed, receiver.id, k)); });
+    std::span<double> numbers(scratch.numbers);
     double begin = 0.0;
     forest.for_each([&](std::uint32_t kind, const auto& tree) {
         const double chance = roots[kind];
@@ -115,8 +117,9 @@ Estimate<typename Forest::spectrum> tree_sampling(const Forest& forest, const Re
         numbers = numbers.subspan(own.size());
         for (double& u : own) u = detail::remainder_in(u, begin, chance);
         begin += chance;
-        detail::descend(tree, kind, tree.topology().root(), receiver, policy, own, chance, 1.0 / (samples * chance),
-                        seed, scratch);
+        scratch.visits.push_back(
+            {tree.topology().root(), 0, static_cast<std::uint32_t>(own.size()), 1.0 / (samples * chance), chance});
+        detail::descend(tree, kind, receiver, policy, own, seed, scratch);
     });
     return detail::estimate_draws(forest, receiver, oracle, scratch);
 }
