@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -26,7 +27,7 @@ struct Importance {
     double bound = 0.0;
 
     /// True if no light of the cluster can contribute.
-    bool is_zero() const { return !(expected > 0.0); }
+    bool is_zero() const { return !(bound > 0.0); }
     bool is_finite() const { return expected <= std::numeric_limits<double>::max(); }
     /// The finite number to compare by, with others of the same `by_irradiance`.
     double weight(bool by_irradiance) const { return by_irradiance ? (is_zero() ? 0.0 : irradiance) : expected; }
@@ -34,37 +35,42 @@ struct Importance {
 
 namespace detail {
 
-/// Mean squared distance from `point` to the points of a cluster's box; of distant lights 1. Positive.
-template <Light L>
-double mean_distance2(const LightCluster<L>& cluster, const glm::vec3& point) {
-    if constexpr (DirectionalLight<L>) {
-        return 1.0;
-    } else {
-        constexpr double least = 1e-60;
-        const glm::dvec3 offset = centre(cluster.box) - glm::dvec3(point);
-        const double mean = dot(offset, offset) + diagonal2(cluster.box) / 12.0;
-        return mean > least ? mean : least;
-    }
+/// Squared distances from a point to the points of a box.
+struct Distances2 {
+    double least = 0.0;
+    double mean = 0.0;
+};
+
+inline Distances2 distances2(const Box& box, const glm::vec3& point) {
+    const auto along = [](float lo, float hi, float x) -> Distances2 {
+        const double half = 0.5 * (static_cast<double>(hi) - static_cast<double>(lo));
+        const double middle = std::fabs(0.5 * (static_cast<double>(hi) + static_cast<double>(lo)) -
+                                        static_cast<double>(x));
+        const double gap = middle > half ? middle - half : 0.0;
+        return {gap * gap, middle * middle + half * half / 3.0};
+    };
+    const Distances2 x = along(box.lo.x, box.hi.x, point.x), y = along(box.lo.y, box.hi.y, point.y),
+                     z = along(box.lo.z, box.hi.z, point.z);
+    return {x.least + y.least + z.least, x.mean + y.mean + z.mean};
 }
 
 /// The importance of a cluster whose bound per unit intensity is `unit`.
 template <Light L, class S>
 Importance importance_of(const LightCluster<L>& cluster, const S& unit, const glm::vec3& point) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     Importance importance;
     for (int c = 0; c < channels_of<S>; ++c) {
         const auto u = static_cast<double>(channel(unit, c)), i = static_cast<double>(channel(cluster.intensity, c));
         if (u > 0.0 && i > 0.0) importance.bound += u * i;
     }
-    if (!(importance.bound > 0.0)) return importance;
-    const double mean2 = mean_distance2(cluster, point);
-    importance.irradiance = channel_sum(cluster.intensity) / mean2;
+    if (importance.is_zero()) return importance;
+    importance.irradiance = channel_sum(cluster.intensity);
     importance.expected = importance.bound;
-    if constexpr (inverse_square<L>) {
+    if constexpr (PointLight<L>) {
+        const Distances2 d2 = distances2(cluster.box, point);
+        importance.irradiance /= d2.mean > 1e-60 ? d2.mean : 1e-60;
         // A bound counts every light at the least distance. At the mean one, large clusters nearby are worth no more
         // than what they hold.
-        const double least2 = min_distance2(offsets(cluster.box, point));
-        if (importance.bound < infinity && least2 > 0.0) importance.expected *= least2 / mean2;
+        if (inverse_square<L> && d2.least > 0.0) importance.expected *= d2.least / d2.mean;
     }
     return importance;
 }
