@@ -18,7 +18,9 @@ namespace lightcuts {
 /// - `priority(node)`: not negative, possibly infinite, never NaN. Use bounds, never what an estimate happened to
 ///   show: that biases sums.
 /// - `threshold()`: nodes of a priority above it are refined. May change between rounds.
-/// - `split(node, out)`: appends the two nodes that replace it. `node` lies in `out`, which has room.
+/// - `split(node, out)`: appends the nodes that replace it: two, or fewer if some need not be in the cut. `node` lies
+/// in
+///   `out`, which has room.
 /// - `before(a, b)`: a total order that breaks ties of priority, infinite ones above all.
 ///
 /// Optional:
@@ -89,7 +91,7 @@ public:
     /// Returns false, leaving `fresh` empty, when the refinement has ended. pre: the last `fresh` was absorbed.
     template <RefinementProblem P>
     bool split(P& problem, const RefinementOptions& options) {
-        const auto visit = [this](auto&& f) { for_each(f); };
+        const auto visit = [this](auto&& f) { this->for_each(f); };
         if constexpr (requires { problem.observe(visit); }) problem.observe(visit);
         if constexpr (tells_growth<P>) {
             if (problem.growth() * rest_below > 1.0) {

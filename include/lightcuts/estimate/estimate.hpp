@@ -8,8 +8,10 @@
 #include <vector>
 
 #include "../cut/forest.hpp"
+#include "../cut/refinement.hpp"
 #include "../material/terms.hpp"
 #include "../visibility/oracle.hpp"
+#include "importance.hpp"
 
 namespace lightcuts {
 
@@ -29,8 +31,34 @@ struct EstimateScratch {
         std::uint32_t light;
         std::uint32_t kind;
     };
+    /// A light drawn at random, and by what its contribution is multiplied: the inverse of its chance.
+    struct Draw {
+        std::uint32_t light;
+        std::uint32_t kind;
+        double weight;
+    };
+    /// A node that some of the random numbers have reached.
+    struct Visit {
+        std::uint32_t node;
+        std::uint32_t begin, end;  ///< of the numbers
+        double weight;             ///< of each number: divided by its chance to come here
+        double resolution;         ///< that chance, counted from where the numbers were drawn
+    };
+    /// A node from which lights are drawn, apart from the others.
+    struct Stratum {
+        std::uint32_t node;
+        std::uint32_t kind;
+        bool leaf;
+        Importance importance;
+        double priority;
+    };
     std::vector<Contribution> contributions;
     std::vector<double> sums;
+    std::vector<double> numbers;
+    std::vector<Visit> visits;
+    std::vector<Draw> draws;
+    std::vector<Stratum> strata;
+    Refinement<Stratum> refinement;
     std::vector<VisibilityQuery> queries;
     std::vector<float> answers;
 };
