@@ -61,7 +61,7 @@ public:
             total_[c] = 0.0;
             weight_[c] = least_[c] = darkest;
         }
-        largest_ = 0.0;
+        for (double& l : largest_) l = 0.0;
         queries_ = 0;
         absorbed_ = 0;
         constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -193,7 +193,7 @@ private:
     void add(const glm::vec3& estimate, double sign) {
         for (int c = 0; c < 3; ++c) {
             total_[c] += sign * static_cast<double>(estimate[c]);
-            largest_ = total_[c] > largest_ ? total_[c] : largest_;
+            largest_[c] = total_[c] > largest_[c] ? total_[c] : largest_[c];
         }
     }
 
@@ -212,10 +212,11 @@ private:
     }
 
     void weigh() {
-        const double smallest = std::min(total_[0], std::min(total_[1], total_[2]));
-        if (!(largest_ <= 1e6 * smallest)) {
+        bool is_noise = false;
+        for (int c = 0; c < 3; ++c) is_noise = is_noise || !(largest_[c] <= 1e6 * total_[c]);
+        if (is_noise) {
             for (double& t : total_) t = 0.0;
-            largest_ = 0.0;
+            for (double& l : largest_) l = 0.0;
             for (const std::uint32_t i : resting_) add(nodes_[i].estimate, 1.0);
             for (const std::uint32_t i : active_) add(nodes_[i].estimate, 1.0);
         }
@@ -327,7 +328,7 @@ private:
 
     const Point* point_ = nullptr;
     glm::vec3 albedo_{};  ///< over pi
-    double total_[3]{}, weight_[3]{}, least_[3]{}, largest_ = 0;
+    double total_[3]{}, weight_[3]{}, least_[3]{}, largest_[3]{};
     std::uint32_t queries_ = 0;
     std::vector<Node> nodes_;                      ///< all, refined ones too
     std::vector<std::uint32_t> active_, resting_;  ///< the frontier

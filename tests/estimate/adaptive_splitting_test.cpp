@@ -61,8 +61,9 @@ TEST(AdaptiveSplitting, SharesOutTheSamplesThatSplittingLeaves) {
     for (auto& l : lights) l = {V(random.in_box({-0.01, -0.01, 10.0}, {0.01, 0.01, 10.01})), 1.0f, {}};
     const LightTree tree(lights);
     const Receiver receiver(V(0.0f), Lambert<float>{{0.0f, 0.0f, 1.0f}, 1.0f});
-    EXPECT_EQ(adaptive_splitting(tree, receiver, AlwaysVisible{}, 0.5f, 64, 1).queries, 64u);
-    EXPECT_EQ(adaptive_splitting(tree, receiver, AlwaysVisible{}, 0.0f, 64, 1).queries, 64u);
+    const auto open = [](const auto&, const auto&) { return true; };
+    EXPECT_EQ(adaptive_splitting(tree, receiver, open, 0.5f, 64, 1).queries, 64u);
+    EXPECT_EQ(adaptive_splitting(tree, receiver, open, 0.0f, 64, 1).queries, 64u);
 }
 
 TEST(AdaptiveSplitting, IsDeterministic) {

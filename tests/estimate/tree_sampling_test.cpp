@@ -218,7 +218,10 @@ TEST(TreeSampling, IsExactWithOneLight) {
 TEST(TreeSampling, AsksOnceForALightThatIsDrawnTwice) {
     const std::vector<OmniLight<>> one(1, {{0.5f, 0.0f, 2.0f}, V(1.0f), {}});
     const Receiver receiver(V(0.0f), Lambert<V>{{0.0f, 0.0f, 1.0f}, V(1.0f)});
-    EXPECT_EQ(tree_sampling(LightTree(one), receiver, AlwaysVisible{}, 64, 1).queries, 1u);
+    const LightTree tree(one);
+    const auto open = [](const auto&, const auto&) { return true; };
+    EXPECT_EQ(tree_sampling(tree, receiver, open, 64, 1).queries, 1u);
+    EXPECT_EQ(tree_sampling(tree, receiver, AlwaysVisible{}, 64, 1).queries, 0u) << "that question is not asked";
 }
 
 TEST(TreeSampling, IsDeterministic) {

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <concepts>
+#include <cstddef>
+#include <limits>
 
 #include "../core/joint.hpp"
 #include "../material/material.hpp"
@@ -16,9 +18,12 @@ concept BoundPolicy = requires(const P& policy, const M& material, const C& clus
     { policy.quick(material, cluster, point) } -> std::convertible_to<material_spectrum<M>>;
 };
 
-/// A policy with a dearer second opinion, `tight(...)`, asked for before a cluster is split.
+/// A policy with a dearer second opinion, `tight(...)`, with the arguments and result of `quick`: asked for before a
+/// cluster is split whose bound is above the threshold by a factor below `doubt`.
 template <class P>
-concept TwoStagePolicy = P::two_stages;
+concept TwoStagePolicy = P::two_stages && requires(const P& policy) {
+    { policy.doubt } -> std::convertible_to<double>;
+};
 
 namespace detail {
 

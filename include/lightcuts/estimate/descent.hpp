@@ -153,9 +153,9 @@ Estimate<typename Forest::spectrum> estimate_draws(const Forest& forest, const R
     }
     Estimate<S> result;
     RadianceSum<S> sum;
-    ask(forest, receiver, oracle, scratch, std::span<const Contribution>(scratch.contributions),
+    result.queries = ask(
+        forest, receiver, oracle, scratch, std::span<const Contribution>(scratch.contributions),
         [&](const Contribution& c, float visibility) { sum.add(c.radiance, static_cast<double>(visibility)); });
-    result.queries = static_cast<std::uint32_t>(scratch.contributions.size());
     result.radiance = sum.value();
     return result;
 }

@@ -20,7 +20,7 @@ glm::vec3 place_of(const L& light) {
 /// How a light reaches a point, shadows apart.
 struct Incidence {
     glm::vec3 to_light;  ///< unit direction; meaningless if `geometric` is 0
-    double geometric;    ///< emission x attenuation [Lightcuts 2005, Eq. 3]: finite, not negative
+    double geometric;  ///< emission x attenuation [Lightcuts 2005, Eq. 3]: not negative; infinite only if a falloff is
 };
 
 /// The geometric term of `light` at `point`. A point light exactly at the point contributes nothing.
