@@ -63,9 +63,9 @@ struct LowDiscrepancy {
     }
 };
 
-/// What lights spread over a map or a surface use: dimension 0, their place in their own share of the power, is always
-/// the middle, and the others are `LowDiscrepancy`. Two to three times more even than random places; an expectation
-/// over seeds, which has to be that of the map or surface, needs `LowDiscrepancy` itself.
+/// Puts each light in the middle of its own share of the power (dimension 0 is always 1/2); the other dimensions are
+/// `LowDiscrepancy`. More even than random places where shares are irregular anyway, but the mean over seeds is no
+/// longer that of the map or surface.
 struct CentredNumbers {
     std::uint64_t seed = 0;
 
