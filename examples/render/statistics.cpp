@@ -44,6 +44,7 @@ Json options_json(const RunReport& report) {
     json["adaptation"] = as_written(report.adaptation);
     json["samples"] = o.samples;
     json["ward_threshold"] = as_written(o.ward_threshold);
+    json["splitting_threshold"] = as_written(o.splitting_threshold);
     json["builder"] = o.builder;
     json["lights"] = path_or_null(o.lights);
     json["area_points"] = o.area_points;

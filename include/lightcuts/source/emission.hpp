@@ -1,0 +1,125 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "../core/box.hpp"
+#include "../light/incidence.hpp"
+
+namespace lightcuts::detail {
+
+/// A particle on its way.
+struct Flight {
+    glm::dvec3 origin;
+    glm::dvec3 direction;  ///< unit
+};
+
+/// `v`, whose z lies along the unit vector `axis` [Duff et al. 2017].
+inline glm::dvec3 turned_to(const glm::dvec3& axis, const glm::dvec3& v) {
+    const double sign = std::copysign(1.0, axis.z);
+    const double a = -1.0 / (sign + axis.z), b = axis.x * axis.y * a;
+    const glm::dvec3 x(1.0 + sign * axis.x * axis.x * a, sign * b, -sign * axis.x);
+    const glm::dvec3 y(b, sign + axis.y * axis.y * a, -axis.y);
+    return v.x * x + v.y * y + v.z * axis;
+}
+
+/// The unit vector at `cosine` to z, `turn` of a full circle around it.
+inline glm::dvec3 around_z(double cosine, double turn) {
+    const double sine = std::sqrt(std::fmax(0.0, 1.0 - cosine * cosine)), angle = 2.0 * std::numbers::pi * turn;
+    return {sine * std::cos(angle), sine * std::sin(angle), cosine};
+}
+
+/// Emission about an axis as a staircase of equal steps of the angle.
+class EmissionStaircase {
+public:
+    template <ProfiledLight L>
+    explicit EmissionStaircase(const L& light) {
+        double before = 1.0;
+        for (std::size_t i = 0; i < steps; ++i) {
+            const double angle = std::numbers::pi * static_cast<double>(i) / steps;
+            const double cosine = std::cos(angle + std::numbers::pi / steps);
+            const auto middle = static_cast<float>(std::cos(angle + 0.5 * std::numbers::pi / steps));
+            const double emission = static_cast<double>(emission_of(light, middle));
+            power_ += emission > 0.0 ? emission * 2.0 * std::numbers::pi * (before - cosine) : 0.0;
+            until_[i] = power_;
+            before = cosine;
+        }
+    }
+    /// Flux of a light of intensity 1.
+    double power() const { return power_; }
+    /// The cosine below which `u` of the power lies. pre: power() > 0
+    double cosine(double u) const {
+        std::size_t i = 0;
+        while (i + 1 < steps && until_[i] <= u * power_) ++i;
+        const double start = i > 0 ? until_[i - 1] : 0.0;
+        const double inside = (u * power_ - start) / (until_[i] - start);
+        const double angle = std::numbers::pi / steps;
+        return glm::mix(std::cos(angle * static_cast<double>(i)), std::cos(angle * static_cast<double>(i + 1)), inside);
+    }
+
+private:
+    static constexpr std::size_t steps = 512;
+    std::array<double, steps> until_;
+    double power_ = 0.0;
+};
+
+/// Areas of the three faces of `bounds` that light along `direction` enters by, seen along it.
+inline glm::dvec3 entered_faces(const Box& bounds, const glm::dvec3& direction) {
+    const glm::dvec3 size = extent(bounds);
+    return glm::abs(direction) * glm::dvec3(size.y * size.z, size.z * size.x, size.x * size.y);
+}
+
+/// What `light` sends into a scene within `bounds`, for intensity 1: flux over intensity, sr; of a directional light
+/// the area of the bounds' outline, m^2.
+template <Light L>
+double flux_factor(const L& light, const Box& bounds) {
+    if constexpr (DirectionalLight<L>) {
+        const glm::dvec3 faces = entered_faces(bounds, -glm::dvec3(place_of(light)));
+        return faces.x + faces.y + faces.z;
+    } else if constexpr (ProfiledLight<L>) {
+        return EmissionStaircase(light).power();
+    } else if constexpr (OrientedLight<L>) {
+        return std::numbers::pi;
+    } else {
+        return 4.0 * std::numbers::pi;
+    }
+}
+
+/// A particle of `light`: with (u, v) and w uniform, particles leave with the density of its emission.
+template <Light L>
+Flight flight_from(const L& light, const Box& bounds, const glm::dvec2& uv, double w) {
+    if constexpr (DirectionalLight<L>) {
+        const glm::dvec3 direction = -glm::dvec3(place_of(light));
+        const glm::dvec3 faces = entered_faces(bounds, direction);
+        const double at = w * (faces.x + faces.y + faces.z);
+        const int axis = at < faces.x ? 0 : at < faces.x + faces.y ? 1 : 2;
+        glm::dvec3 point(bounds.lo);
+        const glm::dvec3 size = extent(bounds);
+        point[axis] = static_cast<double>(direction[axis] > 0.0 ? bounds.lo[axis] : bounds.hi[axis]);
+        point[(axis + 1) % 3] += uv.x * size[(axis + 1) % 3];
+        point[(axis + 2) % 3] += uv.y * size[(axis + 2) % 3];
+        // From outside, for surfaces that lie in the face.
+        return {point - 0.01 * std::sqrt(diagonal2(bounds)) * direction, direction};
+    } else {
+        const glm::dvec3 origin(place_of(light));
+        if constexpr (!OrientedLight<L>) {
+            return {origin, around_z(1.0 - 2.0 * uv.x, uv.y)};
+        } else {
+            const glm::dvec3 axis = glm::normalize(glm::dvec3(to_vec3(axis_of(light))));
+            if constexpr (ProfiledLight<L>) {
+                return {origin, turned_to(axis, around_z(EmissionStaircase(light).cosine(uv.x), uv.y))};
+            } else {
+                return {origin, turned_to(axis, around_z(std::sqrt(1.0 - uv.x), uv.y))};
+            }
+        }
+    }
+}
+
+}  // namespace lightcuts::detail

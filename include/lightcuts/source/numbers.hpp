@@ -1,0 +1,86 @@
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+
+#include "../core/random.hpp"
+
+namespace lightcuts {
+
+/// Where sources take their random numbers from: `numbers(index, dimension)` in [0, 1), always the same for the same
+/// arguments. `index` counts lights or particles; dimensions 2k and 2k + 1 are used together.
+template <class N>
+concept NumberSource = requires(const N& numbers, std::uint32_t index, std::uint32_t dimension) {
+    { numbers(index, dimension) } -> std::convertible_to<double>;
+};
+
+namespace detail {
+
+constexpr std::uint32_t reversed_bits(std::uint32_t x) {
+    x = (x << 16) | (x >> 16);
+    x = ((x & 0x00ff00ffu) << 8) | ((x & 0xff00ff00u) >> 8);
+    x = ((x & 0x0f0f0f0fu) << 4) | ((x & 0xf0f0f0f0u) >> 4);
+    x = ((x & 0x33333333u) << 2) | ((x & 0xccccccccu) >> 2);
+    return ((x & 0x55555555u) << 1) | ((x & 0xaaaaaaaau) >> 1);
+}
+
+/// Owen's nested uniform scrambling of the bits of a fraction x / 2^32 [Laine and Karras 2011]: every bit is flipped
+/// by a hash of the bits above it.
+constexpr std::uint32_t nested_scramble(std::uint32_t x, std::uint32_t seed) {
+    x = reversed_bits(x);
+    x ^= x * 0x3d20adeau;
+    x += seed;
+    x *= (seed >> 16) | 1u;
+    x ^= x * 0x05526c56u;
+    x ^= x * 0x53a22864u;
+    return reversed_bits(x);
+}
+
+/// Second coordinate of Sobol's sequence, whose first is `reversed_bits`.
+constexpr std::uint32_t sobol_second(std::uint32_t index) {
+    std::uint32_t x = 0;
+    for (std::uint32_t column = 0x80000000u; index != 0; index >>= 1, column ^= column >> 1) {
+        if ((index & 1u) != 0) x ^= column;
+    }
+    return x;
+}
+
+}  // namespace detail
+
+/// Evenly spread numbers: each pair of dimensions is a scrambled and shuffled (0, 2)-sequence of its own
+/// [Kollig and Keller 2002], so that the first 2^k indices have one number in each 2^k-th of every dimension. Over
+/// seeds, each number is uniform. cost: about 10 ns
+struct LowDiscrepancy {
+    std::uint64_t seed = 0;
+
+    constexpr double operator()(std::uint32_t index, std::uint32_t dimension) const {
+        using namespace detail;
+        const auto shuffle = static_cast<std::uint32_t>(hash_keys(seed, dimension / 2, 0));
+        const auto scramble = static_cast<std::uint32_t>(hash_keys(seed, dimension, 1));
+        const std::uint32_t at = nested_scramble(index, shuffle);
+        const std::uint32_t x = dimension % 2 == 0 ? reversed_bits(at) : sobol_second(at);
+        return static_cast<double>(nested_scramble(x, scramble)) * 0x1p-32;
+    }
+};
+
+/// Puts each light in the middle of its own share of the power (dimension 0 is always 1/2); the other dimensions are
+/// `LowDiscrepancy`. More even than random places where shares are irregular anyway, but the mean over seeds is no
+/// longer that of the map or surface.
+struct CentredNumbers {
+    std::uint64_t seed = 0;
+
+    constexpr double operator()(std::uint32_t index, std::uint32_t dimension) const {
+        return dimension == 0 ? 0.5 : LowDiscrepancy{seed}(index, dimension);
+    }
+};
+
+/// Independent numbers: a hash of (seed, index, dimension).
+struct IndependentNumbers {
+    std::uint64_t seed = 0;
+
+    constexpr double operator()(std::uint32_t index, std::uint32_t dimension) const {
+        return to_unit(hash_keys(seed, index, dimension));
+    }
+};
+
+}  // namespace lightcuts
