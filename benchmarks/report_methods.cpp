@@ -27,6 +27,9 @@ std::span<const ReportMethod> report_methods() {
     static const std::vector<ReportMethod> methods = {
         {"Ward", "ward", "threshold", ward_threshold, {0.5, 0.2, 0.1, 0.05}},
         {"power", "power", "samples", samples, counts},
+        {"tree sampling", "tree-sampling", "samples", samples, counts},
+        {"adaptive splitting", "adaptive-splitting", "samples", samples, counts},
+        {"stochastic lightcuts", "stochastic-lightcuts", "samples", samples, counts},
         {"lightcuts", "lightcuts", "error ratio", error_ratio<1>, ratios},
         {"lightcuts, 8 representatives", "lightcuts", "error ratio", error_ratio<8>, ratios},
     };
