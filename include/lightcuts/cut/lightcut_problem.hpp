@@ -311,16 +311,22 @@ private:
         }
         if constexpr (TwoStagePolicy<Policy>) {
             // The dear bound is worth it only where it may change the decision.
-            if (!(policy_.doubt > 1.0)) return;
+            if (policy_.doubt > 1.0) {
+                for (std::size_t i = 0; i < count; ++i) {
+                    node& n = *candidates[i]->node;
+                    double& p = candidates[i]->priority;
+                    if (p > threshold() && p < policy_.doubt * threshold()) {
+                        lower_bound(n, policy_.tight(receiver_.material, *clusters[i], receiver_.position),
+                                    *clusters[i]);
+                        p = priority(n);
+                    }
+                }
+            }
+        }
+        if constexpr (BoundedOracle<Oracle, R, typename Tree::light_type>) {
             for (std::size_t i = 0; i < count; ++i) {
                 node& n = *candidates[i]->node;
                 double& p = candidates[i]->priority;
-                if (p > threshold() && p < policy_.doubt * threshold()) {
-                    lower_bound(n, policy_.tight(receiver_.material, *clusters[i], receiver_.position), *clusters[i]);
-                    p = priority(n);
-                }
-            }
-            if constexpr (BoundedOracle<Oracle, R, typename Tree::light_type>) {
                 if (p > threshold()) {
                     hide(n, *clusters[i]);
                     p = priority(n);
