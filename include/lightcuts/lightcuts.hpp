@@ -6,6 +6,7 @@
 #include "estimate/exhaustive.hpp"
 #include "estimate/power.hpp"
 #include "estimate/ward.hpp"
+#include "light/clamped.hpp"
 #include "light/directional.hpp"
 #include "light/omni.hpp"
 #include "light/oriented.hpp"

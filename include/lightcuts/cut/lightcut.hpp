@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -18,23 +19,30 @@ struct CutResult {
     /// Sum of the error bounds of the cut's clusters, absolute radiance; infinite if a cluster that may touch the
     /// receiver is left on the cut.
     S error_bound{};
+    /// Radiance that no clamped light exceeded; infinite if there was no limit.
+    S clamp_threshold = make_spectrum<S>([](int) { return std::numeric_limits<float>::infinity(); });
     std::uint32_t cut_size = 0;  ///< clusters on the cut, those that cannot contribute too
     std::uint32_t queries = 0;   ///< shadow rays asked of the oracle
     StopReason stop = StopReason::converged;
 };
 
-/// Storage that shading reuses; one for each thread. No allocation once warm.
-template <Spectrum S>
+/// Storage that shading reuses; one for each thread. No allocation once warm. `Clamps`: for forests with lights that
+/// may be clamped; see `scratch_of`.
+template <Spectrum S, bool Clamps = false>
 struct LightcutScratch {
     struct Slot {
-        Refinement<CutNode<S>> refinement;
-        CutTotals<S> totals;
+        Refinement<CutNode<S, Clamps>> refinement;
+        CutTotals<S, Clamps> totals;
         bool running = false;
     };
     std::vector<Slot> slots;
     std::vector<VisibilityQuery> queries;
     std::vector<float> answers;
 };
+
+/// The scratch for shading by a tree or a forest.
+template <TreeOrForest T>
+using scratch_of = LightcutScratch<forest_spectrum<T>, forest_of<T>::clamps>;
 
 namespace detail {
 
@@ -49,16 +57,50 @@ RefinementOptions refinement_options(const Forest& forest, const LightcutOptions
     return refinement;
 }
 
+/// The total of a cut as it is, under its own threshold.
 template <Spectrum S>
-CutResult<S> cut_result(const Refinement<CutNode<S>>& refinement, const CutTotals<S>& totals) {
-    typename CutTotals<S>::Sums radiance{}, bound{};
-    refinement.for_each([&](const CutNode<S>& n) {
-        for (int c = 0; c < channels_of<S>; ++c) {
-            radiance[static_cast<std::size_t>(c)] += static_cast<double>(channel(n.estimate, c));
-            bound[static_cast<std::size_t>(c)] += static_cast<double>(channel(n.bound, c));
-        }
+ClampedTotal<S> clamped_total(const Refinement<CutNode<S, true>>& refinement, const CutTotals<S, true>& totals,
+                              const ClampOptions& clamp) {
+    // Converged refinements have found it.
+    if (!clamp.is_automatic() || refinement.stop_reason() == StopReason::converged) {
+        return {totals.total, totals.clamp.threshold};
+    }
+    return clamped_total<S>(clamp, {}, totals.total, 1e-6, [&](auto&& f) {
+        refinement.for_each([&](const auto& n) { f(n.estimate, static_cast<double>(n.lights)); });
     });
+}
+
+template <Spectrum S, bool Clamps>
+CutResult<S> cut_result(const Refinement<CutNode<S, Clamps>>& refinement, const CutTotals<S, Clamps>& totals,
+                        [[maybe_unused]] const ClampOptions& clamp) {
     CutResult<S> result;
+    ChannelSums<S> radiance{}, bound{};
+    if constexpr (Clamps) {
+        const ClampedTotal<S> clamped = clamped_total(refinement, totals, clamp);
+        const auto& threshold = clamped.threshold;
+        refinement.for_each([&](const auto& n) {
+            for (std::size_t c = 0; c < radiance.size(); ++c) {
+                const double most = static_cast<double>(n.lights) * threshold[c];
+                const double e = static_cast<double>(channel(n.estimate, static_cast<int>(c)));
+                const double b = static_cast<double>(channel(n.bound, static_cast<int>(c)));
+                radiance[c] += e > most ? most : e;
+                bound[c] += b > most ? most : b;
+            }
+        });
+        if (clamp.is_automatic()) {
+            bound = clamped_error<S>(clamp, clamped, [&](auto&& f) {
+                refinement.for_each([&](const auto& n) { f(n.estimate, n.bound, static_cast<double>(n.lights)); });
+            });
+        }
+        result.clamp_threshold = make_spectrum<S>([&](int c) { return threshold[static_cast<std::size_t>(c)]; });
+    } else {
+        refinement.for_each([&](const auto& n) {
+            for (std::size_t c = 0; c < radiance.size(); ++c) {
+                radiance[c] += static_cast<double>(channel(n.estimate, static_cast<int>(c)));
+                bound[c] += static_cast<double>(channel(n.bound, static_cast<int>(c)));
+            }
+        });
+    }
     result.radiance = finite(make_spectrum<S>([&](int c) { return radiance[static_cast<std::size_t>(c)]; }));
     result.error_bound = make_spectrum<S>([&](int c) { return round_up(bound[static_cast<std::size_t>(c)]); });
     result.cut_size = static_cast<std::uint32_t>(refinement.size());
@@ -98,7 +140,7 @@ public:
     }
 
     /// The estimate from the cut as it is.
-    CutResult<S> result() const { return detail::cut_result(refinement_, totals_); }
+    CutResult<S> result() const { return detail::cut_result(refinement_, totals_, options_.clamp); }
 
     /// Calls `f(node)` for each CutNode of the cut, in no particular order.
     template <class F>
@@ -132,8 +174,8 @@ private:
     LightcutOptions options_;
     Policy policy_;
     RefinementOptions refinement_options_;
-    Refinement<CutNode<S>> refinement_;
-    CutTotals<S> totals_;
+    Refinement<CutNode<S, Forest::clamps>> refinement_;
+    CutTotals<S, Forest::clamps> totals_;
     std::vector<VisibilityQuery> queries_;
     std::vector<float> answers_;
 };
@@ -147,8 +189,8 @@ namespace detail {
 template <class Forest, class M, class Oracle, class Policy>
 void shade_one_by_one(const Forest& forest, std::span<const Receiver<M>> receivers, const Oracle& oracle,
                       std::span<CutResult<typename Forest::spectrum>> results,
-                      LightcutScratch<typename Forest::spectrum>& scratch, const LightcutOptions& options,
-                      const Policy& policy) {
+                      LightcutScratch<typename Forest::spectrum, Forest::clamps>& scratch,
+                      const LightcutOptions& options, const Policy& policy) {
     const RefinementOptions refinement = refinement_options(forest, options);
     if (scratch.slots.empty()) scratch.slots.resize(1);
     auto& slot = scratch.slots.front();
@@ -156,15 +198,15 @@ void shade_one_by_one(const Forest& forest, std::span<const Receiver<M>> receive
         LightcutProblem<Forest, Receiver<M>, Oracle, Policy> problem(forest, receivers[i], oracle, policy, options,
                                                                      slot.totals, scratch.queries);
         slot.refinement.run(problem, refinement);
-        results[i] = cut_result(slot.refinement, slot.totals);
+        results[i] = cut_result(slot.refinement, slot.totals, options.clamp);
     }
 }
 
 template <class Forest, class M, class Oracle, class Policy>
 void shade_in_lock_step(const Forest& forest, std::span<const Receiver<M>> receivers, const Oracle& oracle,
                         std::span<CutResult<typename Forest::spectrum>> results,
-                        LightcutScratch<typename Forest::spectrum>& scratch, const LightcutOptions& options,
-                        const Policy& policy) {
+                        LightcutScratch<typename Forest::spectrum, Forest::clamps>& scratch,
+                        const LightcutOptions& options, const Policy& policy) {
     const RefinementOptions refinement = refinement_options(forest, options);
     const auto problem_of = [&](std::size_t i, auto& slot) {
         return LightcutProblem<Forest, Receiver<M>, Oracle, Policy>(forest, receivers[i], oracle, policy, options,
@@ -200,7 +242,7 @@ void shade_in_lock_step(const Forest& forest, std::span<const Receiver<M>> recei
                 problem.request(slot.refinement.fresh());
                 any = true;
             } else {
-                results[i] = cut_result(slot.refinement, slot.totals);
+                results[i] = cut_result(slot.refinement, slot.totals, options.clamp);
             }
         }
     }
@@ -215,7 +257,7 @@ void shade_in_lock_step(const Forest& forest, std::span<const Receiver<M>> recei
 /// pre: results.size() >= receivers.size().
 template <TreeOrForest Lights, class M, class Oracle, class Policy = TwoStageBounds>
 void shade(const Lights& lights, std::span<const Receiver<M>> receivers, const Oracle& oracle,
-           std::span<CutResult<forest_spectrum<Lights>>> results, LightcutScratch<forest_spectrum<Lights>>& scratch,
+           std::span<CutResult<forest_spectrum<Lights>>> results, scratch_of<Lights>& scratch,
            const LightcutOptions& options = {}, const Policy& policy = {}) {
     LIGHTCUTS_ASSERT(results.size() >= receivers.size());
     const auto& forest = as_forest(lights);
@@ -229,7 +271,7 @@ void shade(const Lights& lights, std::span<const Receiver<M>> receivers, const O
 /// The same for vectors.
 template <TreeOrForest Lights, class M, class Oracle, class Policy = TwoStageBounds>
 void shade(const Lights& lights, const std::vector<Receiver<M>>& receivers, const Oracle& oracle,
-           std::vector<CutResult<forest_spectrum<Lights>>>& results, LightcutScratch<forest_spectrum<Lights>>& scratch,
+           std::vector<CutResult<forest_spectrum<Lights>>>& results, scratch_of<Lights>& scratch,
            const LightcutOptions& options = {}, const Policy& policy = {}) {
     results.resize(receivers.size());
     shade(lights, std::span<const Receiver<M>>(receivers), oracle, std::span(results), scratch, options, policy);

@@ -28,6 +28,8 @@ namespace lightcuts {
 /// - `observe(visit)`: called before each round; `visit(f)` calls f(node) for the whole frontier, so that the problem
 /// can
 ///   sum up where it has lost count.
+/// - `revise(visit)`: called when no priority is above the threshold; true if it made some larger, and the engine looks
+///   again. Must become false.
 /// - `mark()` and `growth()`: the second bounds the factor by which any priority has grown since the first was called.
 ///   Spares the engine from looking at nodes far below the threshold in every round.
 template <class P>
@@ -91,14 +93,10 @@ public:
     bool split(P& problem, const RefinementOptions& options) {
         const auto visit = [this](auto&& f) { for_each(f); };
         if constexpr (requires { problem.observe(visit); }) problem.observe(visit);
-        if constexpr (tells_growth<P>) {
-            if (problem.growth() * rest_below > 1.0) {
-                wake(problem);
-                problem.mark();
+        while (!find(problem, options)) {
+            if constexpr (requires { problem.revise(visit); }) {
+                if (problem.revise(visit)) continue;
             }
-        }
-        make_room();
-        if (!select(problem, options)) {
             stop_ = StopReason::converged;
             return false;
         }
@@ -154,6 +152,19 @@ public:
     StopReason stop_reason() const { return stop_; }
 
 private:
+    /// `select` from all nodes whose priorities may be above the threshold.
+    template <class P>
+    bool find(P& problem, const RefinementOptions& options) {
+        if constexpr (tells_growth<P>) {
+            if (problem.growth() * rest_below > 1.0) {
+                wake(problem);
+                problem.mark();
+            }
+        }
+        make_room();
+        return select(problem, options);
+    }
+
     /// Fills `chosen_` with what a round would split, in frontier order; false if nothing is above the threshold.
     template <class P>
     bool select(P& problem, const RefinementOptions& options) {
