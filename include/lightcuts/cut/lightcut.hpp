@@ -17,7 +17,7 @@ template <Spectrum S>
 struct CutResult {
     S radiance{};
     /// Sum of the error bounds of the cut's clusters, absolute radiance; infinite if a cluster that may touch the
-    /// receiver is left on the cut.
+    /// receiver is left on the cut. With automatic clamping it includes what errors do to the threshold.
     S error_bound{};
     /// Radiance that no clamped light exceeded; infinite if there was no limit.
     S clamp_threshold = make_spectrum<S>([](int) { return std::numeric_limits<float>::infinity(); });

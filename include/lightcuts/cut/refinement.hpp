@@ -91,7 +91,7 @@ public:
     /// Returns false, leaving `fresh` empty, when the refinement has ended. pre: the last `fresh` was absorbed.
     template <RefinementProblem P>
     bool split(P& problem, const RefinementOptions& options) {
-        const auto visit = [this](auto&& f) { for_each(f); };
+        const auto visit = [this](auto&& f) { this->for_each(f); };
         if constexpr (requires { problem.observe(visit); }) problem.observe(visit);
         while (!find(problem, options)) {
             if constexpr (requires { problem.revise(visit); }) {
