@@ -57,10 +57,22 @@ RefinementOptions refinement_options(const Forest& forest, const LightcutOptions
     return refinement;
 }
 
+template <Spectrum S, bool Clamps>
+CutResult<S> cut_result_of(const Refinement<CutNode<S, Clamps>>& refinement, std::uint32_t queries,
+                           const ChannelSums<S>& radiance, const ChannelSums<S>& bound) {
+    CutResult<S> result;
+    result.radiance = finite(make_spectrum<S>([&](int c) { return radiance[static_cast<std::size_t>(c)]; }));
+    result.error_bound = make_spectrum<S>([&](int c) { return round_up(bound[static_cast<std::size_t>(c)]); });
+    result.cut_size = static_cast<std::uint32_t>(refinement.size());
+    result.queries = queries;
+    result.stop = refinement.stop_reason();
+    return result;
+}
+
 /// The total of a cut as it is, under its own threshold.
 template <Spectrum S>
-ClampedTotal<S> clamped_total(const Refinement<CutNode<S, true>>& refinement, const CutTotals<S, true>& totals,
-                              const ClampOptions& clamp) {
+ClampedTotal<S> clamped_total(const Refinement<CutNode<S, true>>& refinement, const CutTotals<S, true>& totals) {
+    const ClampOptions& clamp = totals.clamp.options;
     // Converged refinements have found it.
     if (!clamp.is_automatic() || refinement.stop_reason() == StopReason::converged) {
         return {totals.total, totals.clamp.threshold};
@@ -70,42 +82,39 @@ ClampedTotal<S> clamped_total(const Refinement<CutNode<S, true>>& refinement, co
     });
 }
 
-template <Spectrum S, bool Clamps>
-CutResult<S> cut_result(const Refinement<CutNode<S, Clamps>>& refinement, const CutTotals<S, Clamps>& totals,
-                        [[maybe_unused]] const ClampOptions& clamp) {
-    CutResult<S> result;
-    ChannelSums<S> radiance{}, bound{};
-    if constexpr (Clamps) {
-        const ClampedTotal<S> clamped = clamped_total(refinement, totals, clamp);
-        const auto& threshold = clamped.threshold;
-        refinement.for_each([&](const auto& n) {
-            for (std::size_t c = 0; c < radiance.size(); ++c) {
-                const double most = static_cast<double>(n.lights) * threshold[c];
-                const double e = static_cast<double>(channel(n.estimate, static_cast<int>(c)));
-                const double b = static_cast<double>(channel(n.bound, static_cast<int>(c)));
-                radiance[c] += e > most ? most : e;
-                bound[c] += b > most ? most : b;
-            }
-        });
-        if (clamp.is_automatic()) {
-            bound = clamped_error<S>(clamp, clamped, [&](auto&& f) {
-                refinement.for_each([&](const auto& n) { f(n.estimate, n.bound, static_cast<double>(n.lights)); });
-            });
+template <Spectrum S>
+CutResult<S> cut_result(const Refinement<CutNode<S>>& refinement, const CutTotals<S>& totals) {
+    typename CutTotals<S>::Sums radiance{}, bound{};
+    refinement.for_each([&](const CutNode<S>& n) {
+        for (int c = 0; c < channels_of<S>; ++c) {
+            radiance[static_cast<std::size_t>(c)] += static_cast<double>(channel(n.estimate, c));
+            bound[static_cast<std::size_t>(c)] += static_cast<double>(channel(n.bound, c));
         }
-        result.clamp_threshold = make_spectrum<S>([&](int c) { return threshold[static_cast<std::size_t>(c)]; });
-    } else {
-        refinement.for_each([&](const auto& n) {
-            for (std::size_t c = 0; c < radiance.size(); ++c) {
-                radiance[c] += static_cast<double>(channel(n.estimate, static_cast<int>(c)));
-                bound[c] += static_cast<double>(channel(n.bound, static_cast<int>(c)));
-            }
+    });
+    return cut_result_of(refinement, totals.queries, radiance, bound);
+}
+
+template <Spectrum S>
+CutResult<S> cut_result(const Refinement<CutNode<S, true>>& refinement, const CutTotals<S, true>& totals) {
+    const ClampOptions& clamp = totals.clamp.options;
+    const ClampedTotal<S> clamped = clamped_total(refinement, totals);
+    ChannelSums<S> radiance{}, bound{};
+    refinement.for_each([&](const CutNode<S, true>& n) {
+        for (std::size_t c = 0; c < radiance.size(); ++c) {
+            const double most = static_cast<double>(n.lights) * clamped.threshold[c];
+            const double e = static_cast<double>(channel(n.estimate, static_cast<int>(c)));
+            const double b = static_cast<double>(channel(n.bound, static_cast<int>(c)));
+            radiance[c] += e > most ? most : e;
+            bound[c] += b > most ? most : b;
+        }
+    });
+    if (clamp.is_automatic()) {
+        bound = clamped_error<S>(clamp, clamped, [&](auto&& f) {
+            refinement.for_each([&](const auto& n) { f(n.estimate, n.bound, static_cast<double>(n.lights)); });
         });
     }
-    result.radiance = finite(make_spectrum<S>([&](int c) { return radiance[static_cast<std::size_t>(c)]; }));
-    result.error_bound = make_spectrum<S>([&](int c) { return round_up(bound[static_cast<std::size_t>(c)]); });
-    result.cut_size = static_cast<std::uint32_t>(refinement.size());
-    result.queries = totals.queries;
-    result.stop = refinement.stop_reason();
+    CutResult<S> result = cut_result_of(refinement, totals.queries, radiance, bound);
+    result.clamp_threshold = make_spectrum<S>([&](int c) { return clamped.threshold[static_cast<std::size_t>(c)]; });
     return result;
 }
 
@@ -140,7 +149,7 @@ public:
     }
 
     /// The estimate from the cut as it is.
-    CutResult<S> result() const { return detail::cut_result(refinement_, totals_, options_.clamp); }
+    CutResult<S> result() const { return detail::cut_result(refinement_, totals_); }
 
     /// Calls `f(node)` for each CutNode of the cut, in no particular order.
     template <class F>
@@ -198,7 +207,7 @@ void shade_one_by_one(const Forest& forest, std::span<const Receiver<M>> receive
         LightcutProblem<Forest, Receiver<M>, Oracle, Policy> problem(forest, receivers[i], oracle, policy, options,
                                                                      slot.totals, scratch.queries);
         slot.refinement.run(problem, refinement);
-        results[i] = cut_result(slot.refinement, slot.totals, options.clamp);
+        results[i] = cut_result(slot.refinement, slot.totals);
     }
 }
 
@@ -242,7 +251,7 @@ void shade_in_lock_step(const Forest& forest, std::span<const Receiver<M>> recei
                 problem.request(slot.refinement.fresh());
                 any = true;
             } else {
-                results[i] = cut_result(slot.refinement, slot.totals, options.clamp);
+                results[i] = cut_result(slot.refinement, slot.totals);
             }
         }
     }

@@ -43,6 +43,7 @@ struct CutNode {
 /// How the contributions to a cut are clamped at the moment.
 template <Spectrum S>
 struct CutClamp {
+    ClampOptions options;
     detail::ChannelSums<S> threshold{};  ///< radiance: the most that a light adds
     detail::ChannelSums<S> share{};      ///< the most that a light's error adds to a priority
     detail::ChannelSums<S> total{};      ///< of which the threshold was made
@@ -89,6 +90,7 @@ public:
         totals_ = {};
         totals_.weight.fill(darkest);
         if constexpr (clamps) {
+            totals_.clamp.options = options_.clamp;
             totals_.clamp.threshold.fill(static_cast<double>(options_.clamp.radiance));
             set_shares();
         }
