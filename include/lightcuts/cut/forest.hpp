@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "../light/clamped.hpp"
 #include "../material/material.hpp"
 #include "../tree/light_tree.hpp"
 #include "../visibility/oracle.hpp"
@@ -22,6 +23,8 @@ public:
     using spectrum = std::tuple_element_t<0, std::tuple<spectrum_of<Ls>...>>;
     static_assert((std::same_as<spectrum, spectrum_of<Ls>> && ...), "all lights of a forest need the same spectrum");
     static constexpr std::uint32_t kinds = sizeof...(Ls);
+    /// True if lights of some kind may be clamped.
+    static constexpr bool clamps = (ClampedLight<Ls> || ...);
 
     explicit LightForest(const LightTree<Ls>&... trees) : trees_(&trees...) {}
     /// The forest would refer to trees that are gone.

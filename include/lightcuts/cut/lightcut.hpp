@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <type_traits>
 #include <utility>
@@ -17,25 +18,32 @@ template <Spectrum S>
 struct CutResult {
     S radiance{};
     /// Sum of the error bounds of the cut's clusters, absolute radiance; infinite if a cluster that may touch the
-    /// receiver is left on the cut.
+    /// receiver is left on the cut. With automatic clamping it includes what errors do to the threshold.
     S error_bound{};
+    /// Radiance that no clamped light exceeded; infinite if there was no limit.
+    S clamp_threshold = make_spectrum<S>([](int) { return std::numeric_limits<float>::infinity(); });
     std::uint32_t cut_size = 0;  ///< clusters on the cut, those that cannot contribute too
     std::uint32_t queries = 0;   ///< shadow rays asked of the oracle
     StopReason stop = StopReason::converged;
 };
 
-/// Storage that shading reuses; one for each thread. No allocation once warm.
-template <Spectrum S>
+/// Storage that shading reuses; one for each thread. No allocation once warm. `Clamps`: for forests with lights that
+/// may be clamped; see `scratch_of`.
+template <Spectrum S, bool Clamps = false>
 struct LightcutScratch {
     struct Slot {
-        Refinement<CutNode<S>> refinement;
-        CutTotals<S> totals;
+        Refinement<CutNode<S, Clamps>> refinement;
+        CutTotals<S, Clamps> totals;
         bool running = false;
     };
     std::vector<Slot> slots;
     std::vector<VisibilityQuery> queries;
     std::vector<float> answers;
 };
+
+/// The scratch for shading by a tree or a forest.
+template <TreeOrForest T>
+using scratch_of = LightcutScratch<forest_spectrum<T>, forest_of<T>::clamps>;
 
 namespace detail {
 
@@ -50,6 +58,31 @@ RefinementOptions refinement_options(const Forest& forest, const LightcutOptions
     return refinement;
 }
 
+template <Spectrum S, bool Clamps>
+CutResult<S> cut_result_of(const Refinement<CutNode<S, Clamps>>& refinement, std::uint32_t queries,
+                           const ChannelSums<S>& radiance, const ChannelSums<S>& bound) {
+    CutResult<S> result;
+    result.radiance = finite(make_spectrum<S>([&](int c) { return radiance[static_cast<std::size_t>(c)]; }));
+    result.error_bound = make_spectrum<S>([&](int c) { return round_up(bound[static_cast<std::size_t>(c)]); });
+    result.cut_size = static_cast<std::uint32_t>(refinement.size());
+    result.queries = queries;
+    result.stop = refinement.stop_reason();
+    return result;
+}
+
+/// The total of a cut as it is, under its own threshold.
+template <Spectrum S>
+ClampedTotal<S> clamped_total(const Refinement<CutNode<S, true>>& refinement, const CutTotals<S, true>& totals) {
+    const ClampOptions& clamp = totals.clamp.options;
+    // Converged refinements have found it.
+    if (!clamp.is_automatic() || refinement.stop_reason() == StopReason::converged) {
+        return {totals.total, totals.clamp.threshold};
+    }
+    return clamped_total<S>(clamp, {}, totals.total, 1e-6, [&](auto&& f) {
+        refinement.for_each([&](const auto& n) { f(n.estimate, static_cast<double>(n.lights)); });
+    });
+}
+
 template <Spectrum S>
 CutResult<S> cut_result(const Refinement<CutNode<S>>& refinement, const CutTotals<S>& totals) {
     typename CutTotals<S>::Sums radiance{}, bound{};
@@ -59,12 +92,30 @@ CutResult<S> cut_result(const Refinement<CutNode<S>>& refinement, const CutTotal
             bound[static_cast<std::size_t>(c)] += static_cast<double>(channel(n.bound, c));
         }
     });
-    CutResult<S> result;
-    result.radiance = finite(make_spectrum<S>([&](int c) { return radiance[static_cast<std::size_t>(c)]; }));
-    result.error_bound = make_spectrum<S>([&](int c) { return round_up(bound[static_cast<std::size_t>(c)]); });
-    result.cut_size = static_cast<std::uint32_t>(refinement.size());
-    result.queries = totals.queries;
-    result.stop = refinement.stop_reason();
+    return cut_result_of(refinement, totals.queries, radiance, bound);
+}
+
+template <Spectrum S>
+CutResult<S> cut_result(const Refinement<CutNode<S, true>>& refinement, const CutTotals<S, true>& totals) {
+    const ClampOptions& clamp = totals.clamp.options;
+    const ClampedTotal<S> clamped = clamped_total(refinement, totals);
+    ChannelSums<S> radiance{}, bound{};
+    refinement.for_each([&](const CutNode<S, true>& n) {
+        for (std::size_t c = 0; c < radiance.size(); ++c) {
+            const double most = static_cast<double>(n.lights) * clamped.threshold[c];
+            const double e = static_cast<double>(channel(n.estimate, static_cast<int>(c)));
+            const double b = static_cast<double>(channel(n.bound, static_cast<int>(c)));
+            radiance[c] += e > most ? most : e;
+            bound[c] += b > most ? most : b;
+        }
+    });
+    if (clamp.is_automatic()) {
+        bound = clamped_error<S>(clamp, clamped, [&](auto&& f) {
+            refinement.for_each([&](const auto& n) { f(n.estimate, n.bound, static_cast<double>(n.lights)); });
+        });
+    }
+    CutResult<S> result = cut_result_of(refinement, totals.queries, radiance, bound);
+    result.clamp_threshold = make_spectrum<S>([&](int c) { return clamped.threshold[static_cast<std::size_t>(c)]; });
     return result;
 }
 
@@ -143,8 +194,8 @@ private:
     LightcutOptions options_;
     Policy policy_;
     RefinementOptions refinement_options_;
-    Refinement<CutNode<S>> refinement_;
-    CutTotals<S> totals_;
+    Refinement<CutNode<S, Forest::clamps>> refinement_;
+    CutTotals<S, Forest::clamps> totals_;
     std::vector<VisibilityQuery> queries_;
     std::vector<float> answers_;
 };
@@ -158,8 +209,8 @@ namespace detail {
 template <class Forest, class M, class Oracle, class Policy>
 void shade_one_by_one(const Forest& forest, std::span<const Receiver<M>> receivers, const Oracle& oracle,
                       std::span<CutResult<typename Forest::spectrum>> results,
-                      LightcutScratch<typename Forest::spectrum>& scratch, const LightcutOptions& options,
-                      const Policy& policy) {
+                      LightcutScratch<typename Forest::spectrum, Forest::clamps>& scratch,
+                      const LightcutOptions& options, const Policy& policy) {
     const RefinementOptions refinement = refinement_options(forest, options);
     if (scratch.slots.empty()) scratch.slots.resize(1);
     auto& slot = scratch.slots.front();
@@ -174,8 +225,8 @@ void shade_one_by_one(const Forest& forest, std::span<const Receiver<M>> receive
 template <class Forest, class M, class Oracle, class Policy>
 void shade_in_lock_step(const Forest& forest, std::span<const Receiver<M>> receivers, const Oracle& oracle,
                         std::span<CutResult<typename Forest::spectrum>> results,
-                        LightcutScratch<typename Forest::spectrum>& scratch, const LightcutOptions& options,
-                        const Policy& policy) {
+                        LightcutScratch<typename Forest::spectrum, Forest::clamps>& scratch,
+                        const LightcutOptions& options, const Policy& policy) {
     const RefinementOptions refinement = refinement_options(forest, options);
     const auto problem_of = [&](std::size_t i, auto& slot) {
         return LightcutProblem<Forest, Receiver<M>, Oracle, Policy>(forest, receivers[i], oracle, policy, options,
@@ -226,7 +277,7 @@ void shade_in_lock_step(const Forest& forest, std::span<const Receiver<M>> recei
 /// pre: results.size() >= receivers.size().
 template <TreeOrForest Lights, class M, class Oracle, class Policy = TwoStageBounds>
 void shade(const Lights& lights, std::span<const Receiver<M>> receivers, const Oracle& oracle,
-           std::span<CutResult<forest_spectrum<Lights>>> results, LightcutScratch<forest_spectrum<Lights>>& scratch,
+           std::span<CutResult<forest_spectrum<Lights>>> results, scratch_of<Lights>& scratch,
            const LightcutOptions& options = {}, const Policy& policy = {}) {
     LIGHTCUTS_ASSERT(results.size() >= receivers.size());
     const auto& forest = as_forest(lights);
@@ -240,7 +291,7 @@ void shade(const Lights& lights, std::span<const Receiver<M>> receivers, const O
 /// The same for vectors.
 template <TreeOrForest Lights, class M, class Oracle, class Policy = TwoStageBounds>
 void shade(const Lights& lights, const std::vector<Receiver<M>>& receivers, const Oracle& oracle,
-           std::vector<CutResult<forest_spectrum<Lights>>>& results, LightcutScratch<forest_spectrum<Lights>>& scratch,
+           std::vector<CutResult<forest_spectrum<Lights>>>& results, scratch_of<Lights>& scratch,
            const LightcutOptions& options = {}, const Policy& policy = {}) {
     results.resize(receivers.size());
     shade(lights, std::span<const Receiver<M>>(receivers), oracle, std::span(results), scratch, options, policy);

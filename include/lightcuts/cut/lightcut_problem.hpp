@@ -16,9 +16,17 @@
 
 namespace lightcuts {
 
-/// A cluster on a lightcut.
-template <Spectrum S>
+namespace detail {
+struct LightCountTag {};
+struct ClampTag {};
+}  // namespace detail
+
+/// A cluster on a lightcut. `Clamps`: the cut may hold lights that are clamped; estimates and bounds here are as they
+/// were without.
+template <Spectrum S, bool Clamps = false>
 struct CutNode {
+    using light_count = std::conditional_t<Clamps, float, detail::Absent<detail::LightCountTag>>;
+
     std::uint32_t node = 0;            ///< in its tree
     std::uint32_t representative = 0;  ///< leaf of the tree that stands for the cluster
     S terms{};                         ///< the representative's material x geometric x visibility terms
@@ -28,19 +36,31 @@ struct CutNode {
     std::uint8_t kind = 0;             ///< tree of the forest
     bool bounded = false;              ///< `unit_bound` is the cluster's own
     bool queried = false;              ///< `terms` waits for the representative, or for its shadow ray
+    /// Of the cluster; infinite if its kind is not clamped.
+    [[no_unique_address]] light_count lights{};
+};
+
+/// How the contributions to a cut are clamped at the moment.
+template <Spectrum S>
+struct CutClamp {
+    ClampOptions options;
+    detail::ChannelSums<S> threshold{};  ///< radiance: the most that a light adds
+    detail::ChannelSums<S> share{};      ///< the most that a light's error adds to a priority
+    detail::ChannelSums<S> total{};      ///< of which the threshold was made
 };
 
 /// Radiance sums of one receiver's cut, in double.
-template <Spectrum S>
+template <Spectrum S, bool Clamps = false>
 struct CutTotals {
-    static constexpr std::size_t channels = static_cast<std::size_t>(channels_of<S>);
-    using Sums = std::array<double, channels>;
+    using Sums = detail::ChannelSums<S>;
+    using clamp_type = std::conditional_t<Clamps, CutClamp<S>, detail::Absent<detail::ClampTag>>;
 
-    Sums total{};    ///< running sum of the estimates
+    Sums total{};    ///< running sum of the estimates, clamped
     Sums largest{};  ///< largest running sum since it was last computed afresh
     Sums weight{};   ///< 1 / (total + adaptation): what turns a bound into a priority
     Sums least{};    ///< least weights since the last mark
     std::uint32_t queries = 0;
+    [[no_unique_address]] clamp_type clamp{};
 };
 
 /// Lightcuts as a refinement problem, for one receiver [Lightcuts 2005, section 3]. A view of the caller's data.
@@ -48,7 +68,9 @@ template <class Forest, class R, class Oracle, class Policy>
 class LightcutProblem {
 public:
     using S = typename Forest::spectrum;
-    using node = CutNode<S>;
+    static constexpr bool clamps = Forest::clamps;
+    using node = CutNode<S, clamps>;
+    using totals = CutTotals<S, clamps>;
     using material = std::remove_cvref_t<decltype(R::material)>;
 
     static_assert(Material<material>, "a material needs evaluate(to_light) const, which returns a Spectrum");
@@ -60,20 +82,25 @@ public:
                   "many(queries, answers) const");
 
     LightcutProblem(const Forest& forest, const R& receiver, const Oracle& oracle, const Policy& policy,
-                    const LightcutOptions& options, CutTotals<S>& totals, std::vector<VisibilityQuery>& queries)
-        : forest_(forest), receiver_(receiver), oracle_(oracle), policy_(policy), options_(options), totals_(totals),
+                    const LightcutOptions& options, totals& sums, std::vector<VisibilityQuery>& queries)
+        : forest_(forest), receiver_(receiver), oracle_(oracle), policy_(policy), options_(options), totals_(sums),
           queries_(queries), threshold_(static_cast<double>(options.error_ratio)) {}
 
     void roots(std::vector<node>& out) {
         totals_ = {};
         totals_.weight.fill(darkest);
+        if constexpr (clamps) {
+            totals_.clamp.options = options_.clamp;
+            totals_.clamp.threshold.fill(static_cast<double>(options_.clamp.radiance));
+            set_shares();
+        }
         forest_.for_each([&](std::uint32_t kind, const auto& tree) {
-            if (!tree.empty()) make_node(tree, kind, tree.topology().root(), unbounded(), out);
+            if (!tree.empty()) make_node(tree, kind, tree.topology().root(), largest_terms(tree), out);
         });
     }
 
     void split(const node& parent, std::vector<node>& out) {
-        add(parent.estimate, -1.0);
+        add(parent, -1.0);
         forest_.visit(parent.kind, [&](const auto& tree) {
             const std::uint32_t right = tree.topology().right(parent.node);
             const std::uint32_t left = tree.topology().left(parent.node);
@@ -132,7 +159,7 @@ public:
                     return static_cast<float>(oracle_(receiver_, light));
                 }));
             }
-            add(n.estimate, 1.0);
+            add(n, 1.0);
         }
     }
 
@@ -143,7 +170,7 @@ public:
                 receive(n, answers.front());
                 answers = answers.subspan(1);
             }
-            add(n.estimate, 1.0);
+            add(n, 1.0);
         }
         return answers;
     }
@@ -152,6 +179,9 @@ public:
 
     template <class Visit>
     void observe(const Visit& visit) {
+        if constexpr (clamps) {
+            if (has_moved()) clamp_anew(visit, 1e-2);
+        }
         // Differences of a sum that was once much larger are noise.
         constexpr double cancellation = 1e6;
         bool is_noise = false;
@@ -161,14 +191,22 @@ public:
         if (is_noise) {
             totals_.total = {};
             totals_.largest = {};
-            visit([this](const node& n) { add(n.estimate, 1.0); });
+            visit([this](const node& n) { add(n, 1.0); });
         }
-        for (std::size_t c = 0; c < totals_.total.size(); ++c) {
-            const double reference = totals_.total[c] + 0.1 * static_cast<double>(options_.adaptation);
-            // Against darkness every bound is too large, and larger bounds are refined first.
-            totals_.weight[c] = reference * darkest > 1.0 ? 1.0 / reference : darkest;
-            totals_.least[c] = totals_.weight[c] < totals_.least[c] ? totals_.weight[c] : totals_.least[c];
-        }
+        weigh();
+    }
+
+    /// Finds the final total under its own threshold; true if the running total was so much larger that clusters may
+    /// have been left too coarse.
+    template <class Visit>
+    bool revise(const Visit& visit) requires clamps {
+        if (!options_.clamp.is_automatic()) return false;
+        const auto before = totals_.weight;
+        clamp_anew(visit, 1e-6);
+        weigh();
+        bool grown = false;
+        for (std::size_t c = 0; c < before.size(); ++c) grown = grown || totals_.weight[c] > 1.01 * before[c];
+        return grown;
     }
 
     void mark() { totals_.least = totals_.weight; }
@@ -185,7 +223,11 @@ public:
     double priority(const node& n) const {
         double largest = 0.0;
         for (int c = 0; c < channels_of<S>; ++c) {
-            const double p = static_cast<double>(channel(n.bound, c)) * totals_.weight[static_cast<std::size_t>(c)];
+            double p = static_cast<double>(channel(n.bound, c)) * totals_.weight[static_cast<std::size_t>(c)];
+            if constexpr (clamps) {
+                const double most = static_cast<double>(n.lights) * totals_.clamp.share[static_cast<std::size_t>(c)];
+                p = p > most ? most : p;
+            }
             largest = p > largest ? p : largest;
         }
         return largest;
@@ -205,8 +247,12 @@ public:
 private:
     static constexpr double darkest = 1e150;  ///< weight of bounds where no light has arrived
 
-    static S unbounded() {
-        return make_spectrum<S>([](int) { return std::numeric_limits<float>::infinity(); });
+    /// What is known of a cluster's terms without looking at it.
+    template <class Tree>
+    S largest_terms(const Tree&) const {
+        float largest = std::numeric_limits<float>::infinity();
+        if constexpr (ClampedLight<typename Tree::light_type>) largest = options_.clamp.terms;
+        return make_spectrum<S>([&](int) { return largest; });
     }
 
     /// Appends a node with what its parent's bound says of it. In place: a node is too large to be passed around.
@@ -217,6 +263,10 @@ private:
         n.node = index;
         n.kind = static_cast<std::uint8_t>(kind);
         n.unit_bound = unit_bound;
+        if constexpr (clamps) {
+            n.lights = ClampedLight<typename Tree::light_type> ? static_cast<float>(tree.topology().leaf_count(index))
+                                                               : std::numeric_limits<float>::infinity();
+        }
         // A single light is exact.
         if (!tree.topology().is_leaf(index)) {
             n.bound = detail::multiply_bounds(unit_bound, tree.clusters()[index].intensity);
@@ -259,6 +309,7 @@ private:
         for (int i = 0; i < count; ++i) {
             node& n = *nodes[static_cast<std::size_t>(i)];
             n.terms = terms[static_cast<std::size_t>(i)];
+            if constexpr (ClampedLight<L>) n.terms = detail::at_most(n.terms, options_.clamp.terms);
             n.queried = !is_black(n.terms);
             if (!n.queried) continue;
             n.estimate = finite_product(n.terms, tree.clusters()[n.node].intensity);
@@ -360,13 +411,62 @@ private:
         n.estimate = n.estimate * visibility;
     }
 
-    void add(const S& estimate, double sign) {
+    void add(const node& n, double sign) {
         for (int c = 0; c < channels_of<S>; ++c) {
             double& total = totals_.total[static_cast<std::size_t>(c)];
-            total += sign * static_cast<double>(channel(estimate, c));
+            double estimate = static_cast<double>(channel(n.estimate, c));
+            if constexpr (clamps) {
+                const double most = static_cast<double>(n.lights) *
+                                    totals_.clamp.threshold[static_cast<std::size_t>(c)];
+                estimate = estimate > most ? most : estimate;
+            }
+            total += sign * estimate;
             double& largest = totals_.largest[static_cast<std::size_t>(c)];
             largest = total > largest ? total : largest;
         }
+    }
+
+    /// Makes priorities of the total as it is.
+    void weigh() {
+        for (std::size_t c = 0; c < totals_.total.size(); ++c) {
+            const double reference = totals_.total[c] + 0.1 * static_cast<double>(options_.adaptation);
+            // Against darkness every bound is too large, and larger bounds are refined first.
+            totals_.weight[c] = reference * darkest > 1.0 ? 1.0 / reference : darkest;
+            totals_.least[c] = totals_.weight[c] < totals_.least[c] ? totals_.weight[c] : totals_.least[c];
+        }
+        if constexpr (clamps) set_shares();
+    }
+
+    /// A light's share in the total is known also where the total is not, since it has been dark so far.
+    void set_shares() requires clamps {
+        const double limit = static_cast<double>(options_.clamp.radiance);
+        const double ratio = options_.clamp.is_automatic() ? static_cast<double>(options_.clamp.ratio)
+                                                           : std::numeric_limits<double>::infinity();
+        for (std::size_t c = 0; c < totals_.weight.size(); ++c) {
+            const double share = limit * totals_.weight[c];
+            totals_.clamp.share[c] = share < ratio ? share : ratio;
+        }
+    }
+
+    /// True if the total has left the neighbourhood of the one that the threshold was made of.
+    bool has_moved() const requires clamps {
+        if (!options_.clamp.is_automatic()) return false;
+        bool moved = false;
+        for (std::size_t c = 0; c < totals_.total.size(); ++c) {
+            const double now = totals_.total[c], then = totals_.clamp.total[c];
+            moved = moved || now > 1.1 * then || now < 0.9 * then;
+        }
+        return moved;
+    }
+
+    template <class Visit>
+    void clamp_anew(const Visit& visit, double tolerance) requires clamps {
+        const auto solved = detail::clamped_total<S>(options_.clamp, {}, totals_.total, tolerance, [&](auto&& f) {
+            visit([&](const node& n) { f(n.estimate, static_cast<double>(n.lights)); });
+        });
+        totals_.total = totals_.clamp.total = solved.total;
+        totals_.clamp.threshold = solved.threshold;
+        totals_.largest = totals_.total;
     }
 
     double density(const node& n) const {
@@ -382,7 +482,7 @@ private:
     const Oracle& oracle_;
     const Policy& policy_;
     const LightcutOptions& options_;
-    CutTotals<S>& totals_;
+    totals& totals_;
     std::vector<VisibilityQuery>& queries_;
     double threshold_;
 };

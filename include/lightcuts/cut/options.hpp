@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "clamp.hpp"
+
 namespace lightcuts {
 
 struct LightcutOptions {
@@ -19,6 +21,8 @@ struct LightcutOptions {
     std::uint64_t seed = 1;
     /// See RefinementOptions.
     double round_fraction = 0.1;
+    /// Of lights whose kind is a ClampedLight. Off by default.
+    ClampOptions clamp{};
 };
 
 }  // namespace lightcuts

@@ -27,9 +27,11 @@ namespace lightcuts {
 /// - `settled(node)`: true if the node can never be refined; the engine then looks at it no more.
 /// - `tighten(span of candidates)`: lowers priorities where it pays, before any of the nodes is split, in the nodes and
 ///   in the candidates. These are all nodes above the threshold; a node may come again.
-/// - `observe(visit)`: called before each round; `visit(f)` calls f(node) for the whole frontier, for problems that
-/// have
-///   to sum up where they have lost count.
+/// - `observe(visit)`: called before each round; `visit(f)` calls f(node) for the whole frontier, for problems that sum
+/// up
+///   again where they have lost count.
+/// - `revise(visit)`: called when no priority is above the threshold; true if it made some larger, and the engine looks
+///   again. Must become false.
 /// - `mark()` and `growth()`: the second bounds the factor by which any priority has grown since the first was called.
 ///   Spares the engine from looking at nodes far below the threshold in every round.
 template <class P>
@@ -93,14 +95,10 @@ public:
     bool split(P& problem, const RefinementOptions& options) {
         const auto visit = [this](auto&& f) { this->for_each(f); };
         if constexpr (requires { problem.observe(visit); }) problem.observe(visit);
-        if constexpr (tells_growth<P>) {
-            if (problem.growth() * rest_below > 1.0) {
-                wake(problem);
-                problem.mark();
+        while (!find(problem, options)) {
+            if constexpr (requires { problem.revise(visit); }) {
+                if (problem.revise(visit)) continue;
             }
-        }
-        make_room();
-        if (!select(problem, options)) {
             stop_ = StopReason::converged;
             return false;
         }
@@ -156,6 +154,19 @@ public:
     StopReason stop_reason() const { return stop_; }
 
 private:
+    /// `select` from all nodes whose priorities may be above the threshold.
+    template <class P>
+    bool find(P& problem, const RefinementOptions& options) {
+        if constexpr (tells_growth<P>) {
+            if (problem.growth() * rest_below > 1.0) {
+                wake(problem);
+                problem.mark();
+            }
+        }
+        make_room();
+        return select(problem, options);
+    }
+
     /// Fills `chosen_` with what a round would split, in frontier order; false if nothing is above the threshold.
     template <class P>
     bool select(P& problem, const RefinementOptions& options) {

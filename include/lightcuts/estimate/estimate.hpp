@@ -4,9 +4,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
+#include "../cut/clamp.hpp"
 #include "../cut/forest.hpp"
 #include "../cut/refinement.hpp"
 #include "../material/terms.hpp"
@@ -19,6 +21,8 @@ namespace lightcuts {
 template <Spectrum S>
 struct Estimate {
     S radiance{};
+    /// Radiance that no clamped light exceeded; infinite if there was no limit.
+    S clamp_threshold = make_spectrum<S>([](int) { return std::numeric_limits<float>::infinity(); });
     std::uint32_t queries = 0;  ///< shadow rays asked of the oracle
 };
 
@@ -59,6 +63,7 @@ struct EstimateScratch {
     std::vector<Draw> draws;
     std::vector<Stratum> strata;
     Refinement<Stratum> refinement;
+    std::vector<S> clamped;  ///< contributions to which a threshold applies
     std::vector<VisibilityQuery> queries;
     std::vector<float> answers;
 };
@@ -66,9 +71,10 @@ struct EstimateScratch {
 namespace detail {
 
 /// Calls `f(i, contribution)` for each of the lights that contributes if nothing shadows it: terms x intensity. As
-/// many at a time as a cut takes, so that both see the same values.
+/// many at a time as a cut takes, so that both see the same values. `clamp`: of which the limit of terms applies.
 template <class M, Light L, class F>
-void for_each_unshadowed(const Receiver<M>& receiver, std::span<const L> lights, F&& f) {
+void for_each_unshadowed(const Receiver<M>& receiver, std::span<const L> lights, F&& f,
+                         [[maybe_unused]] const ClampOptions& clamp = {}) {
     static_assert(Material<std::remove_cvref_t<M>>,
                   "a material needs evaluate(to_light) const, which returns a Spectrum");
     using S = spectrum_of<L>;
@@ -83,6 +89,7 @@ void for_each_unshadowed(const Receiver<M>& receiver, std::span<const L> lights,
         unshadowed_terms<L>(
             receiver, block, count, [&](int i) -> const L& { return members[static_cast<std::size_t>(i)]; }, terms);
         for (std::size_t i = 0; i < members.size(); ++i) {
+            if constexpr (ClampedLight<L>) terms[i] = at_most(terms[i], clamp.terms);
             const S contribution = finite_product(terms[i], S(intensity_of(members[i])));
             if (!is_black(contribution)) f(static_cast<std::uint32_t>(begin + i), contribution);
         }

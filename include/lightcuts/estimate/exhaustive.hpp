@@ -4,41 +4,78 @@
 
 namespace lightcuts {
 
-/// The exact sum over all lights [Lightcuts 2005, Eq. 1], in double. A light whose terms are zero costs no shadow
-/// ray. cost: linear in the lights; a batched oracle gets up to 1024 rays at once.
+namespace detail {
+
+/// The contributions of unclamped lights and the list of the others, added up under the threshold of `clamp`.
+template <Spectrum S>
+void add_clamped(const ClampOptions& clamp, const RadianceSum<S>& unclamped, std::span<const S> clamped,
+                 Estimate<S>& result) {
+    const auto solved = clamped_total<S>(clamp, unclamped.sum, unclamped.sum, 1e-7, [&](auto&& f) {
+        for (const S& contribution : clamped) f(contribution, 1.0);
+    });
+    result.radiance = RadianceSum<S>{solved.total}.value();
+    result.clamp_threshold = make_spectrum<S>([&](int c) { return solved.threshold[static_cast<std::size_t>(c)]; });
+}
+
+}  // namespace detail
+
+/// The exact sum over all lights [Lightcuts 2005, Eq. 1], in double; what a lightcut with the same clamping
+/// approximates. A light whose terms are zero costs no shadow ray. cost: linear in the lights; a batched oracle gets up
+/// to 1024 rays at once. memory: with clamping, the scratch holds a spectrum for each clamped light.
 template <TreeOrForest Lights, class M, class Oracle>
 Estimate<forest_spectrum<Lights>> exhaustive(const Lights& lights, const Receiver<M>& receiver, const Oracle& oracle,
-                                             EstimateScratch<forest_spectrum<Lights>>& scratch) {
+                                             EstimateScratch<forest_spectrum<Lights>>& scratch,
+                                             const ClampOptions& clamp = {}) {
     const auto& forest = as_forest(lights);
     using S = forest_spectrum<Lights>;
     using Contribution = typename EstimateScratch<S>::Contribution;
     constexpr std::size_t batch = 1024;
     Estimate<S> result;
     detail::RadianceSum<S> sum;
+    bool clamps = false;  // lights of the kind at hand
     const auto flush = [&] {
-        result.queries += detail::ask(
-            forest, receiver, oracle, scratch, std::span<const Contribution>(scratch.contributions),
-            [&](const Contribution& c, float visibility) { sum.add(c.radiance, static_cast<double>(visibility)); });
+        result.queries += detail::ask(forest, receiver, oracle, scratch,
+                                      std::span<const Contribution>(scratch.contributions),
+                                      [&](const Contribution& c, float visibility) {
+                                          if (clamps) {
+                                              scratch.clamped.push_back(c.radiance * visibility);
+                                          } else {
+                                              sum.add(c.radiance, static_cast<double>(visibility));
+                                          }
+                                      });
         scratch.contributions.clear();
     };
     scratch.contributions.clear();
+    scratch.clamped.clear();
     forest.for_each([&](std::uint32_t kind, const auto& tree) {
-        detail::for_each_unshadowed(receiver, tree.lights(), [&](std::uint32_t i, const S& radiance) {
-            scratch.contributions.push_back({radiance, i, kind});
-            if (scratch.contributions.size() == batch) flush();
-        });
+        using L = typename std::remove_cvref_t<decltype(tree)>::light_type;
+        const bool clamps_kind = ClampedLight<L> && clamp.has_threshold();
+        if (clamps_kind != clamps) {
+            flush();
+            clamps = clamps_kind;
+        }
+        detail::for_each_unshadowed(
+            receiver, tree.lights(),
+            [&](std::uint32_t i, const S& radiance) {
+                scratch.contributions.push_back({radiance, i, kind});
+                if (scratch.contributions.size() == batch) flush();
+            },
+            clamp);
     });
     flush();
     result.radiance = sum.value();
+    if constexpr (forest_of<Lights>::clamps) {
+        if (clamp.has_threshold()) detail::add_clamped(clamp, sum, std::span<const S>(scratch.clamped), result);
+    }
     return result;
 }
 
 /// The same in one call, by the lights of a tree or a forest.
 template <TreeOrForest Lights, class M, class Oracle = AlwaysVisible>
 Estimate<forest_spectrum<Lights>> exhaustive(const Lights& lights, const Receiver<M>& receiver,
-                                             const Oracle& oracle = {}) {
+                                             const Oracle& oracle = {}, const ClampOptions& clamp = {}) {
     EstimateScratch<forest_spectrum<Lights>> scratch;
-    return exhaustive(as_forest(lights), receiver, oracle, scratch);
+    return exhaustive(as_forest(lights), receiver, oracle, scratch, clamp);
 }
 
 }  // namespace lightcuts

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "light.hpp"
+#include "oriented.hpp"
+
+namespace lightcuts {
+
+/// A light whose contributions may be clamped, see ClampOptions: one of many samples of what they stand for together,
+/// each of which is mostly noise. The mark is `static constexpr bool clamped = true`, in the type or its
+/// `light_traits`. Kinds without it cost nothing and are never clamped.
+template <class L>
+concept ClampedLight = Light<L> &&(
+    requires { requires std::bool_constant<L::clamped>::value; } ||
+    requires { requires std::bool_constant<light_traits<L>::clamped>::value; });
+
+/// A light of kind `L` with that mark: a kind of its own, with a tree of its own.
+template <class L>
+struct Clamped : L {
+    static constexpr bool clamped = true;
+};
+
+/// A virtual point light: light reflected by a small piece of a diffuse surface.
+template <Spectrum S = glm::vec3>
+using VirtualLight = Clamped<OrientedPointLight<S>>;
+
+}  // namespace lightcuts
