@@ -71,9 +71,12 @@ inline void lane_joint(const glm::vec3& n, const ClusterBlock& b, Lanes& bound) 
     const LaneSupport& su = b.axis_support;
     alignas(32) Lanes lambda;
     for (int i = 0; i < lane_count; ++i) {
-        const bool centred = smaller(sn.at_centre[i], su.at_centre[i]) > 0.0f;
-        const float top = select(centred, su.at_centre[i], su.value[i] + su.noise[i]);
-        const float bottom = select(centred, sn.at_centre[i], sn.value[i] + sn.noise[i]);
+        const float cx = b.centre[0][i], cy = b.centre[1][i], cz = b.centre[2][i];
+        const float at_n = n.x * cx + n.y * cy + n.z * cz;
+        const float at_u = b.axis.x[0][i] * cx + b.axis.x[1][i] * cy + b.axis.x[2][i] * cz;
+        const bool centred = smaller(at_n, at_u) > 0.0f;
+        const float top = select(centred, at_u, su.value[i] + su.noise[i]);
+        const float bottom = select(centred, at_n, sn.value[i] + sn.noise[i]);
         const float square = smaller(larger(top / bottom, 0x1p-12f), 0x1p12f);
         lambda[i] = square * inverse_sqrt(square);
         const float mu = 1.000001f / lambda[i];
@@ -114,13 +117,20 @@ inline void lane_emission(ClusterBlock& b) {
     alignas(32) Lanes front;
     lane_power<1>(b.axis, s, b, front);
     for (int i = 0; i < lane_count; ++i) {
+        // Where all lies behind the axis the cosine is negative, and the largest is that of a far point.
+        const float x = magnitude(b.centre[0][i]) + b.half[0][i], y = magnitude(b.centre[1][i]) + b.half[1][i],
+                    z = magnitude(b.centre[2][i]) + b.half[2][i];
+        const float farthest2 = x * x + y * y + z * z;
+        const float most = s.value[i] + s.noise[i];
+        const bool is_behind = larger(most, larger(farthest2 - 1e37f, 1e-30f - farthest2)) < 0.0f;
         // A box that holds the receiver has an infinite bound here.
-        const float cosine = smaller(front[i], 1.0f);
+        const float cosine = select(is_behind, larger(smaller(most, 0.0f) * inverse_sqrt(farthest2), -1.0f),
+                                    smaller(front[i], 1.0f));
         const float sine2 = larger(1.0f - cosine * cosine, 0.0f) + 1e-6f;
         const float wide = cosine * b.cos_cone[i] + sine2 * inverse_sqrt(sine2) * (b.sin_cone[i] + 1e-6f);
         const bool one = b.cos_cone[i] == ClusterBlock::one_direction;
         const float inside = select(cosine >= b.cos_cone[i], 1.0f, smaller(wide * 1.000002f, 1.0f));
-        b.emission[i] = select(one, cosine, larger(inside, 0.0f));
+        b.emission[i] = larger(select(one, cosine, inside), 0.0f);
     }
 }
 

@@ -12,29 +12,38 @@ namespace lightcuts {
 /// that compilers turn into vector code. Whatever float cannot do (overflow, denormals) makes a bound infinite.
 /// Fill with `set`, then call `finish`.
 struct OffsetBlock {
+    alignas(32) Lanes lo[3];
+    alignas(32) Lanes hi[3];
     alignas(32) Lanes centre[3];
-    alignas(32) Lanes half[3];  ///< of the edges; widened by all rounding up to here, but zero stays zero
+    alignas(32) Lanes half[3];  ///< of the edges
     alignas(32) Lanes inverse;  ///< 1 / least distance; infinite if that is zero or out of float's range
 
     /// pre: 0 <= lane < lane_count
-    void set(int lane, const glm::vec3& lo, const glm::vec3& hi) {
-        const glm::vec3 middle = 0.5f * lo + 0.5f * hi, edges = 0.5f * hi - 0.5f * lo;
-        centre[0][lane] = middle.x;
-        centre[1][lane] = middle.y;
-        centre[2][lane] = middle.z;
-        half[0][lane] = edges.x;
-        half[1][lane] = edges.y;
-        half[2][lane] = edges.z;
+    void set(int lane, const glm::vec3& low, const glm::vec3& high) {
+        lo[0][lane] = low.x;
+        lo[1][lane] = low.y;
+        lo[2][lane] = low.z;
+        hi[0][lane] = high.x;
+        hi[1][lane] = high.y;
+        hi[2][lane] = high.z;
     }
 
-    /// Repeats the last of `count` boxes in the lanes behind it, and completes all. pre: count > 0
+    /// Repeats the last of `count` boxes in the lanes behind it, and completes all: widened by all rounding up to here,
+    /// but corners at zero stay there. pre: count > 0
     void finish(int count) {
         for (int k = 0; k < 3; ++k) {
-            detail::repeat_last(centre[k], count);
-            detail::repeat_last(half[k], count);
+            detail::repeat_last(lo[k], count);
+            detail::repeat_last(hi[k], count);
         }
         for (int k = 0; k < 3; ++k) {
-            for (int i = 0; i < lane_count; ++i) half[k][i] += 1e-6f * (detail::magnitude(centre[k][i]) + half[k][i]);
+            for (int i = 0; i < lane_count; ++i) {
+                const float low = lo[k][i], high = hi[k][i];
+                const float c = 0.5f * low + 0.5f * high, h = 0.5f * high - 0.5f * low;
+                centre[k][i] = c;
+                half[k][i] = h + 1e-6f * (detail::magnitude(c) + h);
+                lo[k][i] = low - 1e-6f * detail::magnitude(low);
+                hi[k][i] = high + 1e-6f * detail::magnitude(high);
+            }
         }
         for (int i = 0; i < lane_count; ++i) {
             const float x = detail::larger(detail::magnitude(centre[0][i]) - half[0][i], 0.0f);
@@ -50,24 +59,21 @@ struct OffsetBlock {
 
 namespace detail {
 
-/// The largest v.p of each lane, its rounding error, and v.centre.
+/// The largest v.p of each lane and its rounding error.
 struct LaneSupport {
-    alignas(32) Lanes at_centre;
     alignas(32) Lanes value;
     alignas(32) Lanes noise;
 };
 
-/// The support of one lane.
+/// The support of one lane. From the corner farthest along v, so that boxes which touch the plane behind v give zero.
 inline void support_lane(float vx, float vy, float vz, const OffsetBlock& b, int i, LaneSupport& s) {
-    const float ax = magnitude(vx), ay = magnitude(vy), az = magnitude(vz);
-    const float cx = b.centre[0][i], cy = b.centre[1][i], cz = b.centre[2][i];
-    const float rx = magnitude(cx) + b.half[0][i], ry = magnitude(cy) + b.half[1][i], rz = magnitude(cz) + b.half[2][i];
-    const float at_centre = vx * cx + vy * cy + vz * cz;
-    s.at_centre[i] = at_centre;
-    s.value[i] = at_centre + (ax * b.half[0][i] + ay * b.half[1][i] + az * b.half[2][i]);
+    const float x = select(vx > 0.0f, b.hi[0][i], b.lo[0][i]), y = select(vy > 0.0f, b.hi[1][i], b.lo[1][i]),
+                z = select(vz > 0.0f, b.hi[2][i], b.lo[2][i]);
+    const float px = vx * x, py = vy * y, pz = vz * z;
+    s.value[i] = px + py + pz;
     // A product of factors that are not zero is not zero, though it may underflow.
-    const bool any = ((ax > 0.0f) & (rx > 0.0f)) | ((ay > 0.0f) & (ry > 0.0f)) | ((az > 0.0f) & (rz > 0.0f));
-    s.noise[i] = 1e-6f * (ax * rx + ay * ry + az * rz) + select(any, 1e-37f, 0.0f);
+    const bool any = ((vx != 0.0f) & (x != 0.0f)) | ((vy != 0.0f) & (y != 0.0f)) | ((vz != 0.0f) & (z != 0.0f));
+    s.noise[i] = 1e-6f * (magnitude(px) + magnitude(py) + magnitude(pz)) + select(any, 1e-37f, 0.0f);
 }
 
 inline void support(const LaneVectors& v, const OffsetBlock& b, LaneSupport& s) {
@@ -123,7 +129,7 @@ void certify(const LaneVectors& v, const OffsetBlock& b, Lanes& step, Lanes& bes
     }
 }
 
-/// Two certificates from the centre, as `QuickKernel`, for each lane: bounds (v.p)+ / |p|^K. Zero where the support
+/// Two certificates, the first at the centre of the box, for each lane: bounds (v.p)+ / |p|^K. Zero where the support
 /// says that nothing lies in front.
 template <int K>
 void lane_power(const LaneVectors& v, const LaneSupport& s, const OffsetBlock& b, Lanes& bound) {
@@ -134,9 +140,10 @@ void lane_power(const LaneVectors& v, const LaneSupport& s, const OffsetBlock& b
         const float rx = magnitude(cx) + b.half[0][i], ry = magnitude(cy) + b.half[1][i],
                     rz = magnitude(cz) + b.half[2][i];
         const float most = s.value[i] + s.noise[i];
-        const bool in_front = s.at_centre[i] > 0.0f;
+        const float at_centre = v.x[0][i] * cx + v.x[1][i] * cy + v.x[2][i] * cz;
+        const bool in_front = at_centre > 0.0f;
         step[i] = select(in_front, cx * cx + cy * cy + cz * cz, rx * rx + ry * ry + rz * rz) /
-                  (k * select(in_front, s.at_centre[i], most));
+                  (k * select(in_front, at_centre, most));
         const float inverse = b.inverse[i];
         // From the left, since the powers alone would be denormal far away.
         best[i] = K == 1 ? most * inverse : K == 2 ? most * inverse * inverse : most * inverse * inverse * inverse;

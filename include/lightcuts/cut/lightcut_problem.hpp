@@ -316,6 +316,12 @@ private:
                     p = priority(n);
                 }
             }
+            if constexpr (BoundedOracle<Oracle, R, typename Tree::light_type>) {
+                if (p > threshold()) {
+                    hide(n, *clusters[i]);
+                    p = priority(n);
+                }
+            }
         }
     }
 
@@ -326,6 +332,16 @@ private:
             return b < a ? b : a;
         });
         n.bound = detail::multiply_bounds(n.unit_bound, cluster.intensity);
+    }
+
+    /// Scales a cluster's bound by what the oracle knows to be the most that is visible of it.
+    template <class Cluster>
+    void hide(node& n, const Cluster& cluster) const {
+        const auto visible = static_cast<float>(
+            oracle_.upper_bound(receiver_, place_box<typename Cluster::light_type>{cluster.box}));
+        if (visible >= 1.0f) return;
+        const S fraction = make_spectrum<S>([&](int) { return visible; });
+        lower_bound(n, detail::multiply_bounds(n.unit_bound, fraction), cluster);
     }
 
     void receive(node& n, float visibility) const {
