@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "emitters.hpp"
+#include "environment_light.hpp"
 #include "error.hpp"
 #include "interrupt.hpp"
 #include "light_table.hpp"
@@ -84,6 +85,9 @@ Scene prepare_scene(const Options& options) {
     Scene scene = load_scene(options.scene);
     if (!options.lights.empty()) add_light_table(options.lights, scene);
     add_emitter_lights(scene, options.area_points);
+    if (!options.env.empty()) {
+        add_environment(scene, {options.env, options.env_lights, options.env_scale, options.env_rotate, options.seed});
+    }
     require_lights(scene);
     return scene;
 }

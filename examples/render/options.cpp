@@ -21,8 +21,7 @@ constexpr long long largest_picture = 1ll << 27;  ///< pixels
 const std::vector<std::string> methods = {"exhaustive", "lightcuts", "ward", "power"};
 const std::vector<std::string> later_methods = {"tree-sampling",    "adaptive-splitting", "stochastic-lightcuts",
                                                 "multidimensional", "reconstruction",     "row-column"};
-const std::vector<std::string> later_options = {"--env",      "--env-lights",  "--env-scale",  "--env-rotate",
-                                                "--sun-sky",  "--turbidity",   "--sky-lights", "--indirect",
+const std::vector<std::string> later_options = {"--sun-sky",  "--turbidity",   "--sky-lights", "--indirect",
                                                 "--clamp",    "--clamp-ratio", "--instants",   "--shutter",
                                                 "--aperture", "--focus",       "--fog"};
 const std::vector<std::string> builders = {"binned", "agglomerate", "longest-axis"};
@@ -182,8 +181,9 @@ Options parse_options(int argc, const char* const* argv) {
     const auto count = [&text](const std::string& name, const std::string& help, std::uint32_t lowest,
                                std::uint32_t highest, std::uint32_t& value) {
         const std::string wanted = "a whole number from " + std::to_string(lowest) + " to " + std::to_string(highest);
-        text(name, "N", help,
-             [=, &value](const std::string& s) { value = number_in<std::uint32_t>(name, s, lowest, highest, wanted); });
+        return text(name, "N", help, [=, &value](const std::string& s) {
+            value = number_in<std::uint32_t>(name, s, lowest, highest, wanted);
+        });
     };
 
     app.add_option("SCENE", options.scene, "glTF 2.0 (.gltf, .glb), OBJ, or builtin:NAME (builtin:hall)");
@@ -234,6 +234,19 @@ Options parse_options(int argc, const char* const* argv) {
         options.lights = s;
     });
     count("--area-points", "lights per emissive surface (64); 0 leaves them out", 0, many, options.area_points);
+    CLI::Option* env = text("--env", "FILE", "latitude-longitude map around the scene, .exr or .hdr",
+                            [&](const std::string& s) {
+                                if (s.empty()) refuse("--env", "''", "a file name");
+                                options.env = s;
+                            });
+    count("--env-lights", "distant lights that stand for it (3000); 0: it is only seen", 0, many, options.env_lights)
+        ->needs(env);
+    text("--env-scale", "S", "times its radiance (1)", [&](const std::string& s) {
+        options.env_scale = number_in("--env-scale", s, std::numeric_limits<float>::min(), huge, "a number above 0");
+    })->needs(env);
+    text("--env-rotate", "DEG", "counter-clockwise seen from above (0)", [&](const std::string& s) {
+        options.env_rotate = number_in("--env-rotate", s, -huge, huge, "degrees");
+    })->needs(env);
     text("--materials", "full|diffuse", "diffuse: Lambert with the base colour everywhere (full)",
          [&](const std::string& s) {
              if (s != "full" && s != "diffuse") refuse("--materials", s, "full or diffuse");

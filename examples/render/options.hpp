@@ -47,6 +47,10 @@ struct Options {
 
     std::filesystem::path lights;     ///< CSV with more lights; empty: none
     std::uint32_t area_points = 64;   ///< lights per emissive surface; 0: none
+    std::filesystem::path env;        ///< latitude-longitude map around the scene; empty: none
+    std::uint32_t env_lights = 3000;  ///< that stand for it; 0: it is only seen
+    float env_scale = 1.0f;           ///< of its radiance
+    float env_rotate = 0.0f;          ///< degrees, counter-clockwise about +y seen from above
     bool diffuse_materials = false;   ///< everything is Lambert with its base colour
     std::filesystem::path reference;  ///< picture to compare with; empty: none
     std::vector<std::string> aovs;    ///< further layers, each of `aov_names()`

@@ -13,6 +13,8 @@
 #include <lightcuts/light/oriented.hpp>
 #include <lightcuts/light/spot.hpp>
 
+#include "background.hpp"
+
 namespace render {
 
 /// Pixels in linear light; u to the right, v downwards.
@@ -93,6 +95,9 @@ struct Scene {
     std::vector<lightcuts::OrientedPointLight<>> oriented;
     std::vector<lightcuts::SpotLight<>> spots;
     std::vector<lightcuts::DistantLight<>> directional;
+    std::size_t environment_lights = 0;  ///< of `directional`: those of the environment map
+
+    Background background;
 
     std::size_t dropped_triangles = 0;  ///< of zero area, left out when the scene was checked
     std::size_t dropped_lights = 0;     ///< of zero intensity, left out likewise

@@ -47,6 +47,10 @@ Json options_json(const RunReport& report) {
     json["builder"] = o.builder;
     json["lights"] = path_or_null(o.lights);
     json["area_points"] = o.area_points;
+    json["env"] = path_or_null(o.env);
+    json["env_lights"] = o.env_lights;
+    json["env_scale"] = as_written(o.env_scale);
+    json["env_rotate"] = as_written(o.env_rotate);
     json["materials"] = o.diffuse_materials ? "diffuse" : "full";
     json["reference"] = path_or_null(o.reference);
     json["aov"] = o.aovs;
@@ -91,7 +95,8 @@ Json to_json(const RunReport& report) {
     json["lights"] = {{"omni", scene.omni.size()},
                       {"oriented", scene.oriented.size()},
                       {"spot", scene.spots.size()},
-                      {"directional", scene.directional.size()}};
+                      {"directional", scene.directional.size() - scene.environment_lights},
+                      {"environment", scene.environment_lights}};
     json["seconds"] = {{"load", report.seconds.load}, {"tree", report.seconds.tree}, {"render", report.seconds.render}};
     json["shadow_rays"] = s.shadow_rays;
     json["shadow_rays_per_pixel"] = per(static_cast<double>(s.shadow_rays), s.pixels);

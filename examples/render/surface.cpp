@@ -131,7 +131,10 @@ EyeRaySeen SurfaceFinder::follow(const EyeRay& ray, std::uint32_t pixel, std::ui
         const Branch at = open.back();
         open.pop_back();
         const auto hit = rays_.nearest(at.origin, at.direction);
-        if (!hit) continue;
+        if (!hit) {
+            seen.emitted += at.weight * scene_.background.radiance(at.direction);
+            continue;
+        }
         const SurfaceGeometry surface = surface_at(scene_, *hit, at.origin, at.direction);
         const Material& material = scene_.materials[scene_.triangle_material[hit->triangle]];
         const SurfaceColors colors = colors_at(scene_, hit->triangle, hit->u, hit->v);

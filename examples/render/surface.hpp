@@ -35,7 +35,7 @@ struct SurfacePoint {
 
 /// What an eye ray met besides points to be shaded.
 struct EyeRaySeen {
-    glm::vec3 emitted{0.0f};  ///< radiance of the emitters in sight, also in mirrors and through glass
+    glm::vec3 emitted{0.0f};  ///< radiance of emitters and background in sight, also in mirrors and through glass
     float depth = 0;          ///< distance to the first surface; infinite where there is none
     glm::vec3 normal{0.0f};   ///< shading normal of the first surface; 0 where there is none
 };

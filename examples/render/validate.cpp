@@ -196,7 +196,7 @@ void require_lights(const Scene& scene) {
                       scene.directional.empty() && scene.dropped_lights == 0;
     if (none) {
         throw lightcuts::invalid_input(scene.name +
-                                       ": the scene has no lights; add some with --lights, or raise --area-points if "
+                                       ": the scene has no lights; add some with --lights or --env, or raise --area-points if "
                                        "it has emissive surfaces");
     }
 }
