@@ -4,6 +4,7 @@
 
 #include <glm/vec3.hpp>
 #include <lightcuts/source/environment.hpp>
+#include <lightcuts/source/sun_sky.hpp>
 
 #include "picture.hpp"
 
@@ -27,11 +28,13 @@ struct Environment {
 /// What is seen where there is no surface; black if it is empty.
 struct Background {
     std::optional<Environment> environment;
+    std::optional<lightcuts::SunSky> daylight;
 
     /// Radiance from `direction`, a unit vector.
     glm::vec3 radiance(const glm::vec3& direction) const {
         glm::vec3 sum(0.0f);
         if (environment) sum += environment->map().radiance(glm::dvec3(direction));
+        if (daylight) sum += daylight->radiance(glm::dvec3(direction));
         return sum;
     }
 };

@@ -12,7 +12,6 @@
 #include <nlohmann/json.hpp>
 
 #include "emitters.hpp"
-#include "environment_light.hpp"
 #include "error.hpp"
 #include "interrupt.hpp"
 #include "light_table.hpp"
@@ -25,6 +24,7 @@
 #include "shader.hpp"
 #include "statistics.hpp"
 #include "surface.hpp"
+#include "surroundings.hpp"
 #include "validate.hpp"
 #include "view.hpp"
 
@@ -87,6 +87,12 @@ Scene prepare_scene(const Options& options) {
     add_emitter_lights(scene, options.area_points);
     if (!options.env.empty()) {
         add_environment(scene, {options.env, options.env_lights, options.env_scale, options.env_rotate, options.seed});
+    }
+    if (options.sun_sky) {
+        const lightcuts::SunPosition sun{static_cast<double>(options.sun_sky->elevation),
+                                         static_cast<double>(options.sun_sky->azimuth),
+                                         static_cast<double>(options.turbidity)};
+        add_daylight(scene, sun, options.sky_lights, options.seed);
     }
     require_lights(scene);
     return scene;

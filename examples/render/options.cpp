@@ -21,9 +21,8 @@ constexpr long long largest_picture = 1ll << 27;  ///< pixels
 const std::vector<std::string> methods = {"exhaustive", "lightcuts", "ward", "power"};
 const std::vector<std::string> later_methods = {"tree-sampling",    "adaptive-splitting", "stochastic-lightcuts",
                                                 "multidimensional", "reconstruction",     "row-column"};
-const std::vector<std::string> later_options = {"--sun-sky",  "--turbidity",   "--sky-lights", "--indirect",
-                                                "--clamp",    "--clamp-ratio", "--instants",   "--shutter",
-                                                "--aperture", "--focus",       "--fog"};
+const std::vector<std::string> later_options = {"--indirect", "--clamp",    "--clamp-ratio", "--instants",
+                                                "--shutter",  "--aperture", "--focus",       "--fog"};
 const std::vector<std::string> builders = {"binned", "agglomerate", "longest-axis"};
 
 bool contains(const std::vector<std::string>& words, const std::string& word) {
@@ -81,6 +80,17 @@ glm::vec3 vector_of(const std::string& option, const std::string& text) {
         v[i] = *value;
     }
     return v;
+}
+
+void set_sun(Options& options, const std::string& text) {
+    const std::vector<std::string> parts = split(text, ',');
+    const auto elevation = parts.size() == 2 ? to_number<float>(parts[0]) : std::nullopt;
+    const auto azimuth = parts.size() == 2 ? to_number<float>(parts[1]) : std::nullopt;
+    if (!elevation || !azimuth || *elevation < 0.0f || *elevation > 90.0f) {
+        refuse("--sun-sky", text,
+               "ELEVATION,AZIMUTH in degrees; the elevation from 0 to 90, the sky ends at the horizon");
+    }
+    options.sun_sky = {*elevation, *azimuth};
 }
 
 void set_size(Options& options, const std::string& text) {
@@ -247,6 +257,14 @@ Options parse_options(int argc, const char* const* argv) {
     text("--env-rotate", "DEG", "counter-clockwise seen from above (0)", [&](const std::string& s) {
         options.env_rotate = number_in("--env-rotate", s, -huge, huge, "degrees");
     })->needs(env);
+    CLI::Option* sun_sky = text("--sun-sky", "ELEVATION,AZIMUTH", "sun and clear sky; degrees, azimuth from +z to +x",
+                                [&](const std::string& s) { set_sun(options, s); });
+    text("--turbidity", "T", "haze of the sky, 2 (very clear) to 10 (3)", [&](const std::string& s) {
+        options.turbidity = number_in("--turbidity", s, 2.0f, 10.0f, "a number from 2 to 10");
+    })->needs(sun_sky);
+    count("--sky-lights", "distant lights that stand for the sky (5000); 0: it is only seen", 0, many,
+          options.sky_lights)
+        ->needs(sun_sky);
     text("--materials", "full|diffuse", "diffuse: Lambert with the base colour everywhere (full)",
          [&](const std::string& s) {
              if (s != "full" && s != "diffuse") refuse("--materials", s, "full or diffuse");

@@ -96,6 +96,8 @@ struct Scene {
     std::vector<lightcuts::SpotLight<>> spots;
     std::vector<lightcuts::DistantLight<>> directional;
     std::size_t environment_lights = 0;  ///< of `directional`: those of the environment map
+    std::size_t sun_lights = 0;          ///< likewise
+    std::size_t sky_lights = 0;
 
     Background background;
 

@@ -51,6 +51,10 @@ Json options_json(const RunReport& report) {
     json["env_lights"] = o.env_lights;
     json["env_scale"] = as_written(o.env_scale);
     json["env_rotate"] = as_written(o.env_rotate);
+    json["sun_sky"] = o.sun_sky ? Json{as_written(o.sun_sky->elevation), as_written(o.sun_sky->azimuth)}
+                                : Json(nullptr);
+    json["turbidity"] = as_written(o.turbidity);
+    json["sky_lights"] = o.sky_lights;
     json["materials"] = o.diffuse_materials ? "diffuse" : "full";
     json["reference"] = path_or_null(o.reference);
     json["aov"] = o.aovs;
@@ -92,11 +96,12 @@ Json to_json(const RunReport& report) {
     json["threads"] = report.threads;
     json["interrupted"] = report.interrupted;
     json["triangles"] = scene.triangles.size();
-    json["lights"] = {{"omni", scene.omni.size()},
-                      {"oriented", scene.oriented.size()},
-                      {"spot", scene.spots.size()},
-                      {"directional", scene.directional.size() - scene.environment_lights},
-                      {"environment", scene.environment_lights}};
+    const std::size_t of_file = scene.directional.size() - scene.environment_lights - scene.sun_lights -
+                                scene.sky_lights;
+    json["lights"] = {
+        {"omni", scene.omni.size()}, {"oriented", scene.oriented.size()},       {"spot", scene.spots.size()},
+        {"directional", of_file},    {"environment", scene.environment_lights}, {"sun", scene.sun_lights},
+        {"sky", scene.sky_lights}};
     json["seconds"] = {{"load", report.seconds.load}, {"tree", report.seconds.tree}, {"render", report.seconds.render}};
     json["shadow_rays"] = s.shadow_rays;
     json["shadow_rays_per_pixel"] = per(static_cast<double>(s.shadow_rays), s.pixels);

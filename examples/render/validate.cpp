@@ -195,9 +195,10 @@ void require_lights(const Scene& scene) {
     const bool none = scene.omni.empty() && scene.oriented.empty() && scene.spots.empty() &&
                       scene.directional.empty() && scene.dropped_lights == 0;
     if (none) {
-        throw lightcuts::invalid_input(scene.name +
-                                       ": the scene has no lights; add some with --lights or --env, or raise --area-points if "
-                                       "it has emissive surfaces");
+        throw lightcuts::invalid_input(
+            scene.name +
+            ": the scene has no lights; add some with --lights, --env or --sun-sky, or raise --area-points if "
+            "it has emissive surfaces");
     }
 }
 

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <filesystem>
 
+#include <lightcuts/source/sun_sky.hpp>
+
 #include "picture.hpp"
 #include "scene.hpp"
 
@@ -25,5 +27,10 @@ struct EnvironmentOptions {
 /// throws: invalid_input naming the file, and the pixel that is negative or not finite; also if all are black or the
 /// map is not twice as wide as high. The scene is then unchanged.
 void add_environment(Scene& scene, const EnvironmentOptions& options);
+
+/// Puts Preetham's sun and clear sky over `scene`: as background, as 64 distant lights for the sun's disc, and as
+/// `sky_lights` of equal power for the sky, which is only seen if they are 0.
+/// throws: invalid_input if the model does not know that sun
+void add_daylight(Scene& scene, const lightcuts::SunPosition& sun, std::size_t sky_lights, std::uint64_t seed);
 
 }  // namespace render

@@ -6,8 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
-#include <render/environment_light.hpp>
 #include <render/picture.hpp>
+#include <render/surroundings.hpp>
 
 #include "programs.hpp"
 #include "refusal.hpp"
@@ -37,7 +37,7 @@ std::string hdr(int width, int height, const std::string& pixels) {
 }
 
 /// Scenes under the sky: a white floor, and a white wall in the plane x = 0.
-class EnvironmentProgram : public Programs {
+class Surroundings : public Programs {
 protected:
     void SetUp() override {
         Programs::SetUp();
@@ -53,7 +53,7 @@ protected:
     }
 };
 
-TEST_F(EnvironmentProgram, ConstantMapLightsAWhiteFloorWithItsOwnRadiance) {
+TEST_F(Surroundings, OfOneColorLightAWhiteFloorWithTheirRadiance) {
     write_exr(folder / "one.exr", constant_map(32, {1.0f, 2.0f, 0.5f}));
     for (const std::string method : {"exhaustive", "lightcuts"}) {
         const Picture floor = rendered("white.obj --env one.exr --size 8x6 --eye 0,3,0.1 --target 0,0,0 --method " +
@@ -72,7 +72,7 @@ TEST_F(EnvironmentProgram, ConstantMapLightsAWhiteFloorWithItsOwnRadiance) {
     for (const glm::vec3& pixel : sky.pixels) EXPECT_EQ(pixel, glm::vec3(3.0f, 6.0f, 1.5f));
 }
 
-TEST_F(EnvironmentProgram, IsSeenInMirrorsAndThroughGlass) {
+TEST_F(Surroundings, AreSeenInMirrorsAndThroughGlass) {
     write_exr(folder / "one.exr", constant_map(8, glm::vec3(2.0f)));
     folder.write("mirror.mtl", "newmtl mirror\nKd 0 0 0\nKs 0.5 0.25 1\nillum 5\n");
     folder.write("mirror.obj", "mtllib mirror.mtl\nv -4 0 -4\nv 4 0 -4\nv 4 0 4\nv -4 0 4\nusemtl mirror\nf 4 3 2 1\n");
@@ -85,7 +85,7 @@ TEST_F(EnvironmentProgram, IsSeenInMirrorsAndThroughGlass) {
     for (const glm::vec3& pixel : glass.pixels) EXPECT_NEAR(pixel.g, 2.0f, 1e-5f);
 }
 
-TEST_F(EnvironmentProgram, TurnsCounterClockwiseSeenFromAbove) {
+TEST_F(Surroundings, TurnCounterClockwiseSeenFromAbove) {
     // The lamp is one pixel of 10 degrees at longitude 5, latitude 5 degrees: just beside +z, towards +x.
     write_exr(folder / "lamp.exr", lamp_map(18, 17, 8));
     struct Turn {
@@ -117,7 +117,7 @@ TEST_F(EnvironmentProgram, TurnsCounterClockwiseSeenFromAbove) {
     }
 }
 
-TEST_F(EnvironmentProgram, ReadsRadiancePictures) {
+TEST_F(Surroundings, ReadRadiancePictures) {
     // 128 x 2^(129 - 136) = 1 a channel; blue is half of it.
     std::string pixels;
     for (int i = 0; i < 32; ++i) pixels += "\x80\x80\x40\x81";
@@ -130,7 +130,50 @@ TEST_F(EnvironmentProgram, ReadsRadiancePictures) {
     EXPECT_THAT(refusal([&] { render::read_hdr(folder / "cut.hdr"); }), HasSubstr("cut short"));
 }
 
-TEST_F(EnvironmentProgram, RefusesBadMapsInOneLine) {
+TEST_F(Surroundings, HaveASunAtItsElevationAndAzimuth) {
+    const lightcuts::SunSky daylight({30.0, 90.0, 4.0});
+    // From a wall in the plane x = 0 the sun is at 30 degrees; the sky adds what a wall sees of it.
+    const std::string sun = " --sun-sky 30,90 --turbidity 4 --size 4x4 --target 0,0,0 --method exhaustive ";
+    const Picture front = rendered("wall.obj --sky-lights 0 --eye 5,0,0" + sun);
+    const Picture behind = rendered("wall.obj --sky-lights 0 --eye -5,0,0" + sun);
+    const Picture with_sky = rendered("wall.obj --eye 5,0,0" + sun);
+    const auto lights = report("render.json").at("lights");
+    EXPECT_EQ(lights.at("sun"), 64);
+    EXPECT_EQ(lights.at("sky"), 5000);
+    EXPECT_EQ(lights.at("directional"), 0);
+    for (int c = 0; c < 3; ++c) {
+        const float of_sun = daylight.sun_irradiance()[c] * std::numbers::inv_pi_v<float> * std::sqrt(0.75f);
+        EXPECT_NEAR(front.pixels[5][c] / of_sun, 1.0f, 1e-3f);
+        EXPECT_EQ(behind.pixels[5][c], 0.0f);
+        // Irradiance of the sky on the wall by brute force.
+        double of_sky = 0.0;
+        constexpr int steps = 300;
+        for (int i = 0; i < steps; ++i) {
+            for (int j = 0; j < steps; ++j) {
+                const double latitude = (i + 0.5) / steps * std::numbers::pi / 2;
+                const double longitude = (j + 0.5) / steps * std::numbers::pi;
+                const glm::dvec3 towards(std::sin(longitude) * std::cos(latitude), std::sin(latitude),
+                                         std::cos(longitude) * std::cos(latitude));
+                const double angle = std::numbers::pi / 2 / steps * std::numbers::pi / steps * std::cos(latitude);
+                of_sky += static_cast<double>(daylight.sky_radiance(towards)[c]) * towards.x * angle;
+            }
+        }
+        of_sky /= std::numbers::pi;
+        EXPECT_NEAR(static_cast<double>(with_sky.pixels[5][c] - front.pixels[5][c]) / of_sky, 1.0, 0.01);
+    }
+
+    // What is seen: half up to the zenith, into the sun, below the horizon.
+    const auto look = [&](const std::string& target) {
+        return rendered("white.obj --sun-sky 30,90 --turbidity 4 --size 1x1 --fov 0.01 --eye 0,5,0 --target " + target)
+            .pixels[0];
+    };
+    const glm::vec3 away = look("-3,8,0"), seen = daylight.radiance(glm::normalize(glm::dvec3(-1, 1, 0)));
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(away[c] / seen[c], 1.0f, 1e-4f);
+    EXPECT_GT(look("8.6602540,10,0").g, 1000.0f * away.g);
+    EXPECT_EQ(look("20,4,0"), glm::vec3(0.0f));
+}
+
+TEST_F(Surroundings, RefuseBadInputInOneLine) {
     const auto with_pixel = [&](const std::string& name, const glm::vec3& pixel) {
         Picture map = constant_map(4, glm::vec3(1.0f));
         map.pixels[8 * 2 + 5] = pixel;
@@ -161,6 +204,13 @@ TEST_F(EnvironmentProgram, RefusesBadMapsInOneLine) {
         {"--env good.exr --env-scale 0", 2, "--env-scale"},
         {"--env good.exr --env-rotate nan", 2, "--env-rotate"},
         {"--env good.exr --env-lights many", 2, "--env-lights"},
+        {"--sun-sky 30", 2, "--sun-sky"},
+        {"--sun-sky -1,0", 2, "--sun-sky"},
+        {"--sun-sky 91,0", 2, "--sun-sky"},
+        {"--sun-sky 30,nan", 2, "--sun-sky"},
+        {"--sun-sky 30,0 --turbidity 1", 2, "--turbidity"},
+        {"--turbidity 3", 2, "--sun-sky"},
+        {"--sky-lights 3", 2, "--sun-sky"},
         {"--env-lights 9", 2, "--env"},
         {"--env-scale 2", 2, "--env"},
         {"--env-rotate 2", 2, "--env"},

@@ -1,4 +1,4 @@
-#include "environment_light.hpp"
+#include "surroundings.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -18,6 +18,9 @@ namespace render {
 namespace {
 
 using lightcuts::invalid_input;
+
+constexpr std::size_t sun_disc_lights = 64;
+constexpr std::uint32_t sky_rows = 256;
 
 /// Bytes of a file, which remember whether more were wanted than there are: stb_image reads zeros then.
 struct Bytes {
@@ -81,6 +84,17 @@ void add_environment(Scene& scene, const EnvironmentOptions& options) {
         throw invalid_input(options.file.string() + ": " + problem.what() + "; correct it or give another map");
     }
     scene.background.environment = std::move(environment);
+}
+
+void add_daylight(Scene& scene, const lightcuts::SunPosition& sun, std::size_t sky_lights, std::uint64_t seed) {
+    const lightcuts::SunSky daylight(sun);
+    const auto of_sun = lightcuts::sun_lights(daylight, sun_disc_lights, lightcuts::LowDiscrepancy{seed});
+    const auto of_sky = lightcuts::sky_lights(daylight, sky_lights, sky_rows, lightcuts::CentredNumbers{seed});
+    scene.directional.insert(scene.directional.end(), of_sun.begin(), of_sun.end());
+    scene.directional.insert(scene.directional.end(), of_sky.begin(), of_sky.end());
+    scene.sun_lights += of_sun.size();
+    scene.sky_lights += of_sky.size();
+    scene.background.daylight = daylight;
 }
 
 }  // namespace render
