@@ -22,6 +22,7 @@
 #include "ray_scene.hpp"
 #include "render_loop.hpp"
 #include "shader.hpp"
+#include "spheres.hpp"
 #include "statistics.hpp"
 #include "surface.hpp"
 #include "surroundings.hpp"
@@ -85,6 +86,7 @@ Scene prepare_scene(const Options& options) {
     Scene scene = load_scene(options.scene);
     if (!options.lights.empty()) add_light_table(options.lights, scene);
     add_emitter_lights(scene, options.area_points);
+    add_sphere_lights(scene, options.area_points, options.seed);
     if (!options.env.empty()) {
         add_environment(scene, {options.env, options.env_lights, options.env_scale, options.env_rotate, options.seed});
     }

@@ -243,7 +243,8 @@ Options parse_options(int argc, const char* const* argv) {
         if (s.empty()) refuse("--lights", "''", "a file name");
         options.lights = s;
     });
-    count("--area-points", "lights per emissive surface (64); 0 leaves them out", 0, many, options.area_points);
+    count("--area-points", "lights per emissive surface or sphere (64); 0 leaves them out", 0, many,
+          options.area_points);
     CLI::Option* env = text("--env", "FILE", "latitude-longitude map around the scene, .exr or .hdr",
                             [&](const std::string& s) {
                                 if (s.empty()) refuse("--env", "''", "a file name");

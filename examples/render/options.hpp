@@ -52,7 +52,7 @@ struct Options {
     std::string builder = "binned";  ///< binned, agglomerate or longest-axis
 
     std::filesystem::path lights;     ///< CSV with more lights; empty: none
-    std::uint32_t area_points = 64;   ///< lights per emissive surface; 0: none
+    std::uint32_t area_points = 64;   ///< lights per emissive surface or sphere; 0: none
     std::filesystem::path env;        ///< latitude-longitude map around the scene; empty: none
     std::uint32_t env_lights = 3000;  ///< that stand for it; 0: it is only seen
     float env_scale = 1.0f;           ///< of its radiance

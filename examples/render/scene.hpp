@@ -12,6 +12,7 @@
 #include <lightcuts/light/omni.hpp>
 #include <lightcuts/light/oriented.hpp>
 #include <lightcuts/light/spot.hpp>
+#include <lightcuts/source/sphere.hpp>
 
 #include "background.hpp"
 
@@ -95,8 +96,10 @@ struct Scene {
     std::vector<lightcuts::OrientedPointLight<>> oriented;
     std::vector<lightcuts::SpotLight<>> spots;
     std::vector<lightcuts::DistantLight<>> directional;
-    std::size_t environment_lights = 0;  ///< of `directional`: those of the environment map
-    std::size_t sun_lights = 0;          ///< likewise
+    std::vector<lightcuts::SphereLight<>> spheres;
+    std::vector<lightcuts::SpherePointLight<>> sphere_points;  ///< in `spheres`
+    std::size_t environment_lights = 0;                        ///< of `directional`: those of the environment map
+    std::size_t sun_lights = 0;                                ///< likewise
     std::size_t sky_lights = 0;
 
     Background background;

@@ -40,6 +40,7 @@ lightcuts::LightTree<L> make_tree(const std::vector<L>& lights, const Options& o
 
 SceneLights::SceneLights(const Scene& scene, const Options& options)
     : omni_(make_tree(scene.omni, options)), oriented_(make_tree(scene.oriented, options)),
-      spots_(make_tree(scene.spots, options)), directional_(make_tree(scene.directional, options)) {}
+      spots_(make_tree(scene.spots, options)), directional_(make_tree(scene.directional, options)),
+      spheres_(make_tree(scene.sphere_points, options)) {}
 
 }  // namespace render

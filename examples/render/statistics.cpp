@@ -98,10 +98,14 @@ Json to_json(const RunReport& report) {
     json["triangles"] = scene.triangles.size();
     const std::size_t of_file = scene.directional.size() - scene.environment_lights - scene.sun_lights -
                                 scene.sky_lights;
-    json["lights"] = {
-        {"omni", scene.omni.size()}, {"oriented", scene.oriented.size()},       {"spot", scene.spots.size()},
-        {"directional", of_file},    {"environment", scene.environment_lights}, {"sun", scene.sun_lights},
-        {"sky", scene.sky_lights}};
+    json["lights"] = {{"omni", scene.omni.size()},
+                      {"oriented", scene.oriented.size()},
+                      {"spot", scene.spots.size()},
+                      {"directional", of_file},
+                      {"sphere", scene.sphere_points.size()},
+                      {"environment", scene.environment_lights},
+                      {"sun", scene.sun_lights},
+                      {"sky", scene.sky_lights}};
     json["seconds"] = {{"load", report.seconds.load}, {"tree", report.seconds.tree}, {"render", report.seconds.render}};
     json["shadow_rays"] = s.shadow_rays;
     json["shadow_rays_per_pixel"] = per(static_cast<double>(s.shadow_rays), s.pixels);
@@ -121,7 +125,9 @@ std::string summary(const RunReport& report) {
     std::ostringstream text;
     text << std::setprecision(3);
     text << report.options.scene << ": " << scene.triangles.size() << " triangles, "
-         << scene.omni.size() + scene.oriented.size() + scene.spots.size() + scene.directional.size() << " lights\n";
+         << scene.omni.size() + scene.oriented.size() + scene.spots.size() + scene.directional.size() +
+                scene.sphere_points.size()
+         << " lights\n";
     text << report.options.method << ": " << report.seconds.load << " s loading, " << report.seconds.tree
          << " s trees, " << report.seconds.render << " s rendering, "
          << per(static_cast<double>(s.shadow_rays), s.pixels) << " shadow rays a pixel, cut size "
