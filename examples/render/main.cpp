@@ -13,6 +13,7 @@
 
 #include "emitters.hpp"
 #include "error.hpp"
+#include "indirect.hpp"
 #include "interrupt.hpp"
 #include "light_table.hpp"
 #include "load_scene.hpp"
@@ -154,7 +155,7 @@ ExitStatus render_scene(const Options& options) {
     watch_interrupt();
 
     Stopwatch watch;
-    const Scene scene = prepare_scene(options);
+    Scene scene = prepare_scene(options);
     const Camera camera = choose_camera(scene, options);
     const RayScene rays(scene);
     RunReport report(options, scene, threads);
@@ -162,10 +163,13 @@ ExitStatus render_scene(const Options& options) {
 
     Rendering rendering;
     arena.execute([&] {
+        const Shade shade = options.diffuse_materials ? Shade::diffuse : Shade::full;
+        add_virtual_lights(scene, rays, options.indirect, shade, options.seed);
+        report.seconds.particles = watch.lap();
         const auto shader = make_shader(scene, rays, options);
         report.seconds.tree = watch.lap();
         const View view(camera, options.width, options.height);
-        const SurfaceFinder surfaces(scene, rays, options.diffuse_materials ? Shade::diffuse : Shade::full);
+        const SurfaceFinder surfaces(scene, rays, shade);
         report.adaptation = options.adaptation ? *options.adaptation : measure_adaptation(view, surfaces, *shader);
         shader->adapt(report.adaptation);
         rendering = render_picture(view, surfaces, *shader, options);

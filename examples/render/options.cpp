@@ -21,8 +21,8 @@ constexpr long long largest_picture = 1ll << 27;  ///< pixels
 const std::vector<std::string> methods = {"exhaustive", "lightcuts", "ward", "power"};
 const std::vector<std::string> later_methods = {"tree-sampling",    "adaptive-splitting", "stochastic-lightcuts",
                                                 "multidimensional", "reconstruction",     "row-column"};
-const std::vector<std::string> later_options = {"--indirect", "--clamp",    "--clamp-ratio", "--instants",
-                                                "--shutter",  "--aperture", "--focus",       "--fog"};
+const std::vector<std::string> later_options = {"--clamp-ratio", "--instants", "--shutter",
+                                                "--aperture",    "--focus",    "--fog"};
 const std::vector<std::string> builders = {"binned", "agglomerate", "longest-axis"};
 
 bool contains(const std::vector<std::string>& words, const std::string& word) {
@@ -135,6 +135,9 @@ void set_output(Options& options, const std::string& text) {
 }
 
 void check_together(const Options& options) {
+    if (options.indirect > 0 && options.clamp != "off") {
+        throw usage_error("--indirect: clamping, its default, comes with a later version; give --clamp off too");
+    }
     if (options.eye.has_value() != options.target.has_value()) {
         throw usage_error(std::string(options.eye ? "--eye needs --target" : "--target needs --eye") + " X,Y,Z too");
     }
@@ -266,6 +269,12 @@ Options parse_options(int argc, const char* const* argv) {
     count("--sky-lights", "distant lights that stand for the sky (5000); 0: it is only seen", 0, many,
           options.sky_lights)
         ->needs(sun_sky);
+    count("--indirect", "about so many virtual lights for indirect light (0)", 0, many, options.indirect);
+    text("--clamp", "off", "limit of what a virtual light adds at a point; --indirect needs off",
+         [&](const std::string& s) {
+             if (s != "off") throw usage_error("--clamp " + s + ": comes with a later version; give --clamp off");
+             options.clamp = s;
+         });
     text("--materials", "full|diffuse", "diffuse: Lambert with the base colour everywhere (full)",
          [&](const std::string& s) {
              if (s != "full" && s != "diffuse") refuse("--materials", s, "full or diffuse");

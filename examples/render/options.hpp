@@ -60,6 +60,8 @@ struct Options {
     std::optional<SunPosition> sun_sky;
     float turbidity = 3.0f;
     std::uint32_t sky_lights = 5000;  ///< that stand for the sky; 0: it is only seen
+    std::uint32_t indirect = 0;       ///< about so many virtual lights; 0: direct light only
+    std::string clamp = "auto";       ///< of virtual lights; only `off` is there yet
     bool diffuse_materials = false;   ///< everything is Lambert with its base colour
     std::filesystem::path reference;  ///< picture to compare with; empty: none
     std::vector<std::string> aovs;    ///< further layers, each of `aov_names()`

@@ -15,7 +15,7 @@ class SceneLights {
 public:
     using Forest =
         lightcuts::LightForest<lightcuts::OmniLight<>, lightcuts::OrientedPointLight<>, lightcuts::SpotLight<>,
-                               lightcuts::DistantLight<>, lightcuts::SpherePointLight<>>;
+                               lightcuts::DistantLight<>, lightcuts::SpherePointLight<>, VirtualLight>;
     static constexpr std::uint32_t sphere_kind = 4;
 
     /// `scene` must outlive this object. throws: lightcuts::invalid_input for a light that cannot be used.
@@ -31,7 +31,8 @@ private:
     lightcuts::LightTree<lightcuts::SpotLight<>> spots_;
     lightcuts::LightTree<lightcuts::DistantLight<>> directional_;
     lightcuts::LightTree<lightcuts::SpherePointLight<>> spheres_;
-    Forest forest_{omni_, oriented_, spots_, directional_, spheres_};
+    lightcuts::LightTree<VirtualLight> virtual_;
+    Forest forest_{omni_, oriented_, spots_, directional_, spheres_, virtual_};
 };
 
 }  // namespace render

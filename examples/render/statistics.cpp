@@ -55,6 +55,8 @@ Json options_json(const RunReport& report) {
                                 : Json(nullptr);
     json["turbidity"] = as_written(o.turbidity);
     json["sky_lights"] = o.sky_lights;
+    json["indirect"] = o.indirect;
+    json["clamp"] = o.clamp;
     json["materials"] = o.diffuse_materials ? "diffuse" : "full";
     json["reference"] = path_or_null(o.reference);
     json["aov"] = o.aovs;
@@ -105,8 +107,12 @@ Json to_json(const RunReport& report) {
                       {"sphere", scene.sphere_points.size()},
                       {"environment", scene.environment_lights},
                       {"sun", scene.sun_lights},
-                      {"sky", scene.sky_lights}};
-    json["seconds"] = {{"load", report.seconds.load}, {"tree", report.seconds.tree}, {"render", report.seconds.render}};
+                      {"sky", scene.sky_lights},
+                      {"virtual", scene.virtual_lights.size()}};
+    json["seconds"] = {{"load", report.seconds.load},
+                       {"particles", report.seconds.particles},
+                       {"tree", report.seconds.tree},
+                       {"render", report.seconds.render}};
     json["shadow_rays"] = s.shadow_rays;
     json["shadow_rays_per_pixel"] = per(static_cast<double>(s.shadow_rays), s.pixels);
     json["cut_size"] = {
@@ -126,7 +132,7 @@ std::string summary(const RunReport& report) {
     text << std::setprecision(3);
     text << report.options.scene << ": " << scene.triangles.size() << " triangles, "
          << scene.omni.size() + scene.oriented.size() + scene.spots.size() + scene.directional.size() +
-                scene.sphere_points.size()
+                scene.sphere_points.size() + scene.virtual_lights.size()
          << " lights\n";
     text << report.options.method << ": " << report.seconds.load << " s loading, " << report.seconds.tree
          << " s trees, " << report.seconds.render << " s rendering, "

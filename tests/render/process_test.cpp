@@ -257,8 +257,8 @@ TEST_F(Programs, RefuseImpossibleCameras) {
 }
 
 TEST_F(Programs, RefuseWhatALaterVersionBrings) {
-    std::vector<std::string> later = {"--indirect 100", "--clamp auto",   "--clamp-ratio 0.1", "--instants 4",
-                                      "--shutter 0.5",  "--aperture 0.1", "--focus 3",         "--fog 0.1"};
+    std::vector<std::string> later = {"--clamp auto",   "--clamp-ratio 0.1", "--instants 4", "--shutter 0.5",
+                                      "--aperture 0.1", "--focus 3",         "--fog 0.1"};
     for (const char* method : {"tree-sampling", "adaptive-splitting", "stochastic-lightcuts", "multidimensional",
                                "reconstruction", "row-column"}) {
         later.push_back(std::string("--method ") + method);
