@@ -28,8 +28,9 @@ using Material = lightcuts::Lambert<>;
 using Point = lightcuts::Receiver<Material>;
 using Result = lightcuts::CutResult<glm::vec3>;
 
-/// A ball above the floor is all that casts a shadow.
-bool is_lit(const glm::vec3& from, const glm::vec3& to) {
+/// A ball above the floor is all that casts a shadow. Never inlined, as ray tracers are not: what compilers make of it
+/// in one loop and not in the other is no penalty of either.
+[[gnu::noinline]] bool is_lit(const glm::vec3& from, const glm::vec3& to) {
     const glm::vec3 ball(5.0f, 1.0f, 5.0f), d = to - from, offset = ball - from;
     const float along = glm::dot(offset, d), length2 = glm::dot(d, d);
     if (along <= 0.0f || along >= length2) return true;
@@ -53,21 +54,28 @@ public:
     Result shade(const Point& point) {
         point_ = &point;
         albedo_ = point.material.cosine_lobe().scale;
+        nodes_.clear();
         active_.clear();
         resting_.clear();
-        fresh_.clear();
-        for (int c = 0; c < 3; ++c) total_[c] = weight_[c] = least_[c] = 0.0;
-        largest_ = 0.0;
+        for (int c = 0; c < 3; ++c) {
+            total_[c] = 0.0;
+            weight_[c] = least_[c] = darkest;
+        }
+        for (double& l : largest_) l = 0.0;
         queries_ = 0;
+        absorbed_ = 0;
         constexpr float infinity = std::numeric_limits<float>::infinity();
-        add_node(root_, glm::vec3(infinity));
-        set_terms(fresh_.back());
+        add_node(root_, glm::vec3(infinity)).queried = true;
+        nodes_.back().representative = representatives_[root_];
         do {
+            set_terms();
             absorb();
             weigh();
             if (growth() * rest_below > 1.0) wake();
+            const std::size_t most = nodes_.size() + 2 * active_.size();
+            if (most > nodes_.capacity()) nodes_.reserve(2 * most);
             select();
-            for (const Candidate& c : chosen_) split(Node(active_[c.at]));
+            for (const Candidate& c : chosen_) split(*c.node);
             for (std::size_t i = chosen_.size(); i-- > 0;) {
                 active_[chosen_[i].at] = active_.back();
                 active_.pop_back();
@@ -77,14 +85,16 @@ public:
     }
 
 private:
-    static constexpr double rest_below = 0.9;
+    static constexpr double rest_below = 0.9, darkest = 1e150;
+    static constexpr int lanes = lightcuts::lane_count;
 
     struct Node {
-        std::uint32_t node, representative;
-        glm::vec3 terms, estimate, unit_bound, bound;
-        bool bounded, asks;
+        std::uint32_t node = 0, representative = 0;
+        glm::vec3 terms{}, estimate{}, unit_bound{}, bound{};
+        bool bounded = false, queried = false;
     };
     struct Candidate {
+        Node* node;
         std::uint32_t at;
         double priority;
     };
@@ -100,33 +110,18 @@ private:
     /// Where 0 x infinity = 0.
     static glm::vec3 product(const glm::vec3& a, const glm::vec3& b) {
         const glm::vec3 p = a * b;
-        const double sum = static_cast<double>(p.x) + static_cast<double>(p.y) + static_cast<double>(p.z);
+        const float sum = p.x + p.y + p.z;
         if (sum == sum) return p;
         const auto safe = [](float x, float y) { return x > 0.0f && y > 0.0f ? x * y : 0.0f; };
         return {safe(a.x, b.x), safe(a.y, b.y), safe(a.z, b.z)};
     }
 
     Node& add_node(std::uint32_t n, const glm::vec3& unit_bound) {
-        Node& node = fresh_.emplace_back();
+        Node& node = nodes_.emplace_back();
         node.node = n;
         node.unit_bound = unit_bound;
         if (!is_leaf(n)) node.bound = product(unit_bound, clusters_[n].intensity);
         return node;
-    }
-
-    /// Shades the node by its own representative, but for the shadow ray.
-    void set_terms(Node& node) {
-        node.representative = representatives_[node.node];
-        const glm::dvec3 offset = glm::dvec3(light_of(node.representative).position) - glm::dvec3(point_->position);
-        const double distance2 = glm::dot(offset, offset);
-        if (!(distance2 > 0.0)) return;
-        const double inverse = 1.0 / std::sqrt(distance2);
-        const float cosine = glm::dot(point_->material.normal, glm::vec3(offset * inverse));
-        if (!(cosine > 0.0f)) return;
-        node.terms = finite(albedo_ * cosine * static_cast<float>(std::min(inverse * inverse, 3.4028234663852886e38)));
-        node.estimate = finite(node.terms * clusters_[node.node].intensity);
-        node.asks = node.terms != glm::vec3(0.0f);
-        queries_ += node.asks ? 1 : 0;
     }
 
     void split(const Node& parent) {
@@ -138,40 +133,95 @@ private:
         heir.representative = parent.representative;
         heir.terms = parent.terms;
         heir.estimate = finite(heir.terms * clusters_[heir.node].intensity);
-        set_terms(add_node(in_left ? right : left, parent.unit_bound));
+        Node& other = add_node(in_left ? right : left, parent.unit_bound);
+        other.representative = representatives_[other.node];
+        other.queried = true;
+    }
+
+    /// Shades new nodes by the representatives they do not share with a parent, but for the shadow rays.
+    void set_terms() {
+        Node* members[lanes];
+        for (std::size_t next = absorbed_; next < nodes_.size();) {
+            int count = 0;
+            for (; next < nodes_.size() && count < lanes; ++next) {
+                if (nodes_[next].queried) members[count++] = &nodes_[next];
+            }
+            if (count > 0) set_terms(members, count);
+        }
+    }
+
+    void set_terms(Node* const* members, int count) {
+        const glm::vec3 at = point_->position, n = point_->material.normal;
+        alignas(32) lightcuts::Lanes x, y, z, cosine, geometric, in_range;
+        for (int i = 0; i < lanes; ++i) {
+            const glm::vec3 place = clusters_[members[i < count ? i : count - 1]->representative].box.lo;
+            x[i] = place.x;
+            y[i] = place.y;
+            z[i] = place.z;
+        }
+        for (int i = 0; i < lanes; ++i) {
+            const float dx = x[i] - at.x, dy = y[i] - at.y, dz = z[i] - at.z;
+            const float distance2 = dx * dx + dy * dy + dz * dz;
+            const float inverse = lightcuts::detail::inverse_sqrt(distance2);
+            const float facing = n.x * (dx * inverse) + n.y * (dy * inverse) + n.z * (dz * inverse);
+            cosine[i] = lightcuts::detail::larger(facing, 0.0f);
+            geometric[i] = inverse * inverse;
+            in_range[i] = lightcuts::detail::smaller(distance2 - 1e-20f, 1e20f - distance2);
+        }
+        for (int i = 0; i < count; ++i) {
+            Node& node = *members[i];
+            node.terms = in_range[i] > 0.0f ? finite(albedo_ * cosine[i] * geometric[i])
+                                            : terms_of(light_of(node.representative));
+            node.queried = node.terms != glm::vec3(0.0f);
+            if (!node.queried) continue;
+            node.estimate = finite(node.terms * clusters_[node.node].intensity);
+            ++queries_;
+        }
+    }
+
+    /// In double, for what is out of float's range.
+    glm::vec3 terms_of(const Light& light) const {
+        const glm::dvec3 offset = glm::dvec3(light.position) - glm::dvec3(point_->position);
+        const double distance2 = glm::dot(offset, offset);
+        if (!(distance2 > 0.0)) return glm::vec3(0.0f);
+        const double inverse = 1.0 / std::sqrt(distance2);
+        const float cosine = glm::dot(point_->material.normal, glm::vec3(offset * inverse));
+        if (!(cosine > 0.0f)) return glm::vec3(0.0f);
+        return finite(albedo_ * cosine * static_cast<float>(std::min(inverse * inverse, 3.4028234663852886e38)));
     }
 
     void add(const glm::vec3& estimate, double sign) {
         for (int c = 0; c < 3; ++c) {
             total_[c] += sign * static_cast<double>(estimate[c]);
-            largest_ = total_[c] > largest_ ? total_[c] : largest_;
+            largest_[c] = total_[c] > largest_[c] ? total_[c] : largest_[c];
         }
     }
 
     /// Traces the shadow rays of new nodes, which join the frontier.
     void absorb() {
-        for (Node& node : fresh_) {
-            if (node.asks && !is_lit(point_->shadow_origin, light_of(node.representative).position)) {
+        for (const std::size_t end = nodes_.size(); absorbed_ < end; ++absorbed_) {
+            Node& node = nodes_[absorbed_];
+            if (node.queried && !is_lit(point_->shadow_origin, light_of(node.representative).position)) {
                 node.terms = node.terms * 0.0f;
                 node.estimate = node.estimate * 0.0f;
             }
-            node.asks = false;
             add(node.estimate, 1.0);
+            const bool rests = node.bound == glm::vec3(0.0f) || priority(node) <= rest_below * threshold_;
+            (rests ? resting_ : active_).push_back(static_cast<std::uint32_t>(absorbed_));
         }
-        for (const Node& node : fresh_) (node.bound == glm::vec3(0.0f) ? resting_ : active_).push_back(node);
-        fresh_.clear();
     }
 
     void weigh() {
-        const double smallest = std::min(total_[0], std::min(total_[1], total_[2]));
-        if (!(largest_ <= 1e6 * smallest)) {
+        bool is_noise = false;
+        for (int c = 0; c < 3; ++c) is_noise = is_noise || !(largest_[c] <= 1e6 * total_[c]);
+        if (is_noise) {
             for (double& t : total_) t = 0.0;
-            largest_ = 0.0;
-            for (const Node& node : active_) add(node.estimate, 1.0);
-            for (const Node& node : resting_) add(node.estimate, 1.0);
+            for (double& l : largest_) l = 0.0;
+            for (const std::uint32_t i : resting_) add(nodes_[i].estimate, 1.0);
+            for (const std::uint32_t i : active_) add(nodes_[i].estimate, 1.0);
         }
         for (int c = 0; c < 3; ++c) {
-            weight_[c] = total_[c] > 1e-150 ? 1.0 / total_[c] : 1e150;
+            weight_[c] = total_[c] * darkest > 1.0 ? 1.0 / total_[c] : darkest;
             least_[c] = std::min(least_[c], weight_[c]);
         }
     }
@@ -184,11 +234,11 @@ private:
 
     void wake() {
         std::size_t kept = 0;
-        for (const Node& node : resting_) {
-            if (node.bound == glm::vec3(0.0f)) {
-                resting_[kept++] = node;
+        for (const std::uint32_t i : resting_) {
+            if (nodes_[i].bound == glm::vec3(0.0f)) {
+                resting_[kept++] = i;
             } else {
-                active_.push_back(node);
+                active_.push_back(i);
             }
         }
         resting_.resize(kept);
@@ -207,21 +257,19 @@ private:
     void select() {
         chosen_.clear();
         std::size_t kept = 0;
-        for (std::size_t i = 0; i < active_.size(); ++i) {
-            const double p = priority(active_[i]);
+        for (const std::uint32_t i : active_) {
+            const double p = priority(nodes_[i]);
             if (p <= rest_below * threshold_) {
-                resting_.push_back(active_[i]);
+                resting_.push_back(i);
                 continue;
             }
-            if (p > threshold_) chosen_.push_back({static_cast<std::uint32_t>(kept), p});
-            if (kept != i) active_[kept] = active_[i];
-            ++kept;
+            if (p > threshold_) chosen_.push_back({&nodes_[i], static_cast<std::uint32_t>(kept), p});
+            active_[kept++] = i;
         }
         active_.resize(kept);
         tighten();
         double largest = 0.0;
-        for (Candidate& c : chosen_) {
-            c.priority = priority(active_[c.at]);
+        for (const Candidate& c : chosen_) {
             if (c.priority < std::numeric_limits<double>::infinity()) largest = std::max(largest, c.priority);
         }
         std::erase_if(chosen_, [&](const Candidate& c) {
@@ -231,46 +279,35 @@ private:
 
     /// Bounds the candidates that only have their parents' bounds.
     void tighten() {
-        Node* members[lightcuts::lane_count];
-        const Tree::cluster* clusters[lightcuts::lane_count];
-        for (std::size_t begin = 0; begin < chosen_.size();) {
+        Candidate* members[lanes];
+        const Tree::cluster* clusters[lanes];
+        for (std::size_t next = 0; next < chosen_.size();) {
             int count = 0;
-            for (; begin < chosen_.size() && count < lightcuts::lane_count; ++begin) {
-                Node& node = active_[chosen_[begin].at];
-                if (!node.bounded) members[count++] = &node;
+            for (; next < chosen_.size() && count < lanes; ++next) {
+                if (!chosen_[next].node->bounded) members[count++] = &chosen_[next];
             }
             if (count == 0) continue;
-            for (int i = 0; i < count; ++i) clusters[i] = &clusters_[members[i]->node];
+            for (int i = 0; i < count; ++i) clusters[i] = &clusters_[members[i]->node->node];
             const lightcuts::ClusterBlock block(clusters, count, point_->position);
             alignas(32) lightcuts::Lanes bound;
             lightcuts::detail::lane_power<3>(point_->material.normal, block, bound);
             for (int i = 0; i < count; ++i) {
-                Node& node = *members[i];
+                Node& node = *members[i]->node;
                 node.bounded = true;
-                lower(node, lightcuts::detail::scale_bound(albedo_, bound[i]));
-                const double p = priority(node);
-                if (p > threshold_ && p < lightcuts::TwoStageBounds{}.doubt * threshold_) {
-                    const lightcuts::ClusterView view = lightcuts::view_of(clusters_[node.node], point_->position);
-                    const glm::dvec3 normal(point_->material.normal);
-                    lower(node, lightcuts::detail::scale_bound(albedo_,
-                                                               lightcuts::max_power<3>(normal, view.box, 2e-3).value));
-                }
+                node.unit_bound = glm::min(node.unit_bound, lightcuts::detail::scale_bound(albedo_, bound[i]));
+                node.bound = product(node.unit_bound, clusters[i]->intensity);
+                members[i]->priority = priority(node);
             }
         }
     }
 
-    void lower(Node& node, const glm::vec3& unit) const {
-        node.unit_bound = glm::min(node.unit_bound, unit);
-        node.bound = product(node.unit_bound, clusters_[node.node].intensity);
-    }
-
     Result result() const {
         double radiance[3] = {}, bound[3] = {};
-        for (const auto* nodes : {&resting_, &active_}) {
-            for (const Node& node : *nodes) {
+        for (const auto* indices : {&resting_, &active_}) {
+            for (const std::uint32_t i : *indices) {
                 for (int c = 0; c < 3; ++c) {
-                    radiance[c] += static_cast<double>(node.estimate[c]);
-                    bound[c] += static_cast<double>(node.bound[c]);
+                    radiance[c] += static_cast<double>(nodes_[i].estimate[c]);
+                    bound[c] += static_cast<double>(nodes_[i].bound[c]);
                 }
             }
         }
@@ -291,9 +328,11 @@ private:
 
     const Point* point_ = nullptr;
     glm::vec3 albedo_{};  ///< over pi
-    double total_[3]{}, weight_[3]{}, least_[3]{}, largest_ = 0;
+    double total_[3]{}, weight_[3]{}, least_[3]{}, largest_[3]{};
     std::uint32_t queries_ = 0;
-    std::vector<Node> active_, resting_, fresh_;
+    std::vector<Node> nodes_;                      ///< all, refined ones too
+    std::vector<std::uint32_t> active_, resting_;  ///< the frontier
+    std::size_t absorbed_ = 0;                     ///< nodes behind are new
     std::vector<Candidate> chosen_;
 };
 

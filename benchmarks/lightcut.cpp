@@ -179,8 +179,8 @@ nlohmann::json to_json(const Row& r) {
 
 int main(int argc, char** argv) {
     std::string only;
-    int width = 160, height = 120, runs = 5;
-    std::size_t exhaustive_receivers = 200;
+    int width = 96, height = 72, runs = 3;
+    std::size_t exhaustive_receivers = 30;
     CLI::App app{"Time of lightcuts against the time of tracing the same shadow rays"};
     app.add_option("--only", only, "measure only scenes whose name contains this");
     app.add_option("--width", width, "of the picture, pixels");

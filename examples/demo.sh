@@ -13,5 +13,14 @@ cmake -S "$root" -B "$build" -G Ninja -D CMAKE_BUILD_TYPE=Release -D LIGHTCUTS_T
 cmake --build "$build" --target lightcuts-render
 
 mkdir -p "$pictures"
-"$build/bin/lightcuts-render" "$@" --output "$pictures/render.exr"
-echo "Written: $pictures/render.exr, render.png and render.json"
+output=(--output "$pictures/render.exr")
+for argument in "$@"; do
+    case $argument in
+        # What writes no picture, or one elsewhere.
+        -o* | --output* | -h | --help | --version | --list-scenes) output=() ;;
+    esac
+done
+"$build/bin/lightcuts-render" "${output[@]}" "$@"
+if [ ${#output[@]} -gt 0 ]; then
+    echo "Written: $pictures/render.exr, render.png and render.json"
+fi

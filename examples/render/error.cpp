@@ -40,6 +40,47 @@ double percentile(const std::vector<double>& values, double share) {
     return rest > 0.0 ? values[below] + rest * (values[above] - values[below]) : values[below];
 }
 
+/// The largest value and the 99.9th percentile; zeros if there is none.
+struct Worst {
+    double max = 0;
+    double p999 = 0;
+};
+
+Worst worst_of(std::vector<double>& values) {
+    if (values.empty()) return {};
+    // What is no number is as wrong as can be, and sortable.
+    for (double& v : values) v = std::isnan(v) ? std::numeric_limits<double>::infinity() : v;
+    std::sort(values.begin(), values.end());
+    return {values.back(), percentile(values, 0.999)};
+}
+
+/// Calls `f(i, j)` for each pixel and its neighbours to the right and below.
+template <class F>
+void for_each_neighbours(const Picture& picture, F&& f) {
+    const auto width = static_cast<std::size_t>(picture.width);
+    for (std::size_t i = 0; i < picture.size(); ++i) {
+        if ((i + 1) % width != 0) f(i, i + 1);
+        if (i + width < picture.size()) f(i, i + width);
+    }
+}
+
+std::vector<double> steps_of(const Picture& picture, const Picture& reference) {
+    std::vector<double> wrong;  // by how much each pixel's luminance is
+    wrong.reserve(picture.size());
+    for (std::size_t i = 0; i < picture.size(); ++i) {
+        wrong.push_back(static_cast<double>(luminance(picture.pixels[i])) -
+                        static_cast<double>(luminance(reference.pixels[i])));
+    }
+    std::vector<double> steps;
+    steps.reserve(2 * picture.size());
+    for_each_neighbours(picture, [&](std::size_t i, std::size_t j) {
+        const double brighter = static_cast<double>(
+            std::max(luminance(reference.pixels[i]), luminance(reference.pixels[j])));
+        if (brighter != 0.0) steps.push_back(std::abs(wrong[i] - wrong[j]) / brighter);
+    });
+    return steps;
+}
+
 }  // namespace
 
 ErrorFigures compare(const Picture& picture, const Picture& reference) {
@@ -63,19 +104,19 @@ ErrorFigures compare(const Picture& picture, const Picture& reference) {
             reference_sum += r;
         }
         if (luminance(reference.pixels[i]) == 0.0f) continue;
-        const double error = relative_luminance_error(picture.pixels[i], reference.pixels[i]);
-        // A pixel that is no number is as wrong as can be, and sortable.
-        relative.push_back(std::isnan(error) ? std::numeric_limits<double>::infinity() : error);
+        relative.push_back(relative_luminance_error(picture.pixels[i], reference.pixels[i]));
     }
     ErrorFigures figures;
     figures.relative_rmse = ratio(std::sqrt(difference2), std::sqrt(reference2));
     figures.relative_l1 = ratio(difference1, reference1);
     figures.relative_bias = ratio(sum, reference_sum);
-    if (!relative.empty()) {
-        std::sort(relative.begin(), relative.end());
-        figures.max_relative = relative.back();
-        figures.p999_relative = percentile(relative, 0.999);
-    }
+    const Worst pixel = worst_of(relative);
+    figures.max_relative = pixel.max;
+    figures.p999_relative = pixel.p999;
+    std::vector<double> steps = steps_of(picture, reference);
+    const Worst step = worst_of(steps);
+    figures.max_step = step.max;
+    figures.p999_step = step.p999;
     return figures;
 }
 

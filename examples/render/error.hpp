@@ -15,6 +15,10 @@ struct ErrorFigures {
     /// Of |L - L_ref| / L_ref over pixels, L being luminance; pixels with L_ref = 0 are left out.
     double max_relative = 0;
     double p999_relative = 0;  ///< 99.9th percentile, interpolated between neighbours
+    /// Steps that the reference does not have, as bands and noise make them: |(L_i - L_j) - (Lref_i - Lref_j)| /
+    /// max(Lref_i, Lref_j) over pixels i, j beside or below each other; pairs with two black references are left out.
+    double max_step = 0;
+    double p999_step = 0;
 };
 
 /// throws: invalid_input if the sizes differ.

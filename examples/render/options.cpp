@@ -18,9 +18,9 @@ namespace {
 constexpr int largest_side = 1 << 16;
 constexpr long long largest_picture = 1ll << 27;  ///< pixels
 
-const std::vector<std::string> methods = {"exhaustive", "lightcuts", "ward", "power"};
-const std::vector<std::string> later_methods = {"tree-sampling",    "adaptive-splitting", "stochastic-lightcuts",
-                                                "multidimensional", "reconstruction",     "row-column"};
+const std::vector<std::string> methods = {"exhaustive",         "lightcuts",           "ward", "power", "tree-sampling",
+                                          "adaptive-splitting", "stochastic-lightcuts"};
+const std::vector<std::string> later_methods = {"multidimensional", "reconstruction", "row-column"};
 const std::vector<std::string> later_options = {"--clamp-ratio", "--instants", "--shutter",
                                                 "--aperture",    "--focus",    "--fog"};
 const std::vector<std::string> builders = {"binned", "agglomerate", "longest-axis"};
@@ -236,6 +236,10 @@ Options parse_options(int argc, const char* const* argv) {
     text("--ward-threshold", "R", "share of the total that Ward's method may leave untested (0.1)",
          [&](const std::string& s) {
              options.ward_threshold = number_in("--ward-threshold", s, 0.0f, huge, "a number of at least 0");
+         });
+    text("--splitting-threshold", "R", "deviation within a cluster from which adaptive splitting splits it (0.1)",
+         [&](const std::string& s) {
+             options.splitting_threshold = number_in("--splitting-threshold", s, 0.0f, huge, "a number of at least 0");
          });
     text("--builder", "NAME", "how light trees are built: " + listed(builders) + " (" + options.builder + ")",
          [&](const std::string& s) {

@@ -42,13 +42,14 @@ struct Options {
     std::optional<glm::vec3> up;
     std::optional<float> fov;  ///< vertical, degrees
 
-    std::string method = "lightcuts";        ///< exhaustive, lightcuts, ward or power
+    std::string method = "lightcuts";        ///< one of those that `--help` lists
     float error_ratio = 0.02f;               ///< a cluster is refined while its bound exceeds this share of the total
     std::uint32_t max_cut = 1000;            ///< 0: unlimited
     std::uint32_t representatives = 1;       ///< per node of a tree, 1 to 32
     std::optional<float> adaptation = 0.0f;  ///< radiance the eye is adapted to; empty: measured (`auto`)
     std::uint32_t samples = 64;              ///< of the sampling methods
     float ward_threshold = 0.1f;
+    float splitting_threshold = 0.1f;
     std::string builder = "binned";  ///< binned, agglomerate or longest-axis
 
     std::filesystem::path lights;     ///< CSV with more lights; empty: none

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <fstream>
+#include <new>
 
 #include <ImathBox.h>
 #include <ImfChannelList.h>
@@ -125,7 +126,7 @@ Picture read_exr(const std::filesystem::path& path) {
     }
 }
 
-void write_png(const std::filesystem::path& path, int width, int height, const std::vector<glm::vec3>& colors) {
+std::vector<char> png_bytes(int width, int height, const std::vector<glm::vec3>& colors) {
     std::vector<std::uint8_t> bytes;
     bytes.reserve(3 * colors.size());
     for (const glm::vec3& color : colors) {
@@ -135,14 +136,21 @@ void write_png(const std::filesystem::path& path, int width, int height, const s
         }
     }
     std::vector<char> encoded;
-    const bool good = stbi_write_png_to_func(append_bytes, &encoded, width, height, 3, bytes.data(), 3 * width) != 0;
-    std::ofstream file(path, std::ios::binary);
-    file.write(encoded.data(), static_cast<std::streamsize>(encoded.size()));
-    file.close();
-    if (!good || !file) throw invalid_input(path.string() + ": cannot be written; is the disk full?");
+    if (stbi_write_png_to_func(append_bytes, &encoded, width, height, 3, bytes.data(), 3 * width) == 0) {
+        throw std::bad_alloc();
+    }
+    return encoded;
 }
 
-std::vector<glm::vec3> tone_mapped(const Picture& picture) {
+void write_png(const std::filesystem::path& path, int width, int height, const std::vector<glm::vec3>& colors) {
+    const std::vector<char> bytes = png_bytes(width, height, colors);
+    std::ofstream file(path, std::ios::binary);
+    file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    file.close();
+    if (!file) throw invalid_input(path.string() + ": cannot be written; is the disk full?");
+}
+
+ToneCurve tone_curve(const Picture& picture) {
     std::vector<float> bright;
     double log_sum = 0;
     for (const glm::vec3& pixel : picture.pixels) {
@@ -151,27 +159,31 @@ std::vector<glm::vec3> tone_mapped(const Picture& picture) {
         bright.push_back(l);
         log_sum += std::log(static_cast<double>(l));
     }
-    if (bright.empty()) return std::vector<glm::vec3>(picture.size(), glm::vec3(0.0f));
+    if (bright.empty()) return {};
 
     const double exposure = 0.18 / std::exp(log_sum / static_cast<double>(bright.size()));
     const auto nearly_brightest = bright.begin() +
                                   static_cast<std::ptrdiff_t>(0.995 * static_cast<double>(bright.size() - 1));
     std::nth_element(bright.begin(), nearly_brightest, bright.end());
-    const double white = std::max(1.0, static_cast<double>(*nearly_brightest) * exposure);
+    return {exposure, std::max(1.0, static_cast<double>(*nearly_brightest) * exposure)};
+}
 
+std::vector<glm::vec3> tone_mapped(const Picture& picture, const ToneCurve& curve) {
     std::vector<glm::vec3> colors;
     colors.reserve(picture.size());
     for (const glm::vec3& pixel : picture.pixels) {
         glm::vec3 color(0.0f);
         for (int c = 0; c < 3; ++c) {
-            const double v = static_cast<double>(pixel[c]) * exposure;
+            const double v = static_cast<double>(pixel[c]) * curve.exposure;
             if (!(v > 0.0)) continue;
-            color[c] = static_cast<float>(std::isfinite(v) ? std::min(1.0, v * (1.0 + v / (white * white)) / (1.0 + v))
-                                                           : 1.0);
+            const double compressed = v * (1.0 + v / (curve.white * curve.white)) / (1.0 + v);
+            color[c] = static_cast<float>(std::isfinite(v) ? std::min(1.0, compressed) : 1.0);
         }
         colors.push_back(color);
     }
     return colors;
 }
+
+std::vector<glm::vec3> tone_mapped(const Picture& picture) { return tone_mapped(picture, tone_curve(picture)); }
 
 }  // namespace render

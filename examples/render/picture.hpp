@@ -43,12 +43,27 @@ void write_exr(const std::filesystem::path& path, const Picture& picture);
 /// throws: invalid_input with the path when it cannot be read or has no colour.
 Picture read_exr(const std::filesystem::path& path);
 
-/// Writes 8-bit sRGB colours in [0, 1], rows from the top. throws: invalid_input with the path.
+/// A PNG file of 8-bit sRGB colours; `colors` in [0, 1], rows from the top. throws: std::bad_alloc.
+std::vector<char> png_bytes(int width, int height, const std::vector<glm::vec3>& colors);
+
+/// Writes `png_bytes`. throws: invalid_input with the path.
 void write_png(const std::filesystem::path& path, int width, int height, const std::vector<glm::vec3>& colors);
 
-/// `picture` as colours in [0, 1] before the sRGB curve: exposed so that its log-average luminance (of pixels that
-/// are not black) becomes a middle grey of 0.18, bright parts compressed per channel by Reinhard's curve with the
-/// 99.5th percentile as white.
+/// How radiance becomes a colour in [0, 1] before the sRGB curve: exposed, bright parts compressed per channel by
+/// Reinhard's curve.
+struct ToneCurve {
+    double exposure = 0;
+    double white = 1;  ///< exposed radiance that becomes 1
+};
+
+/// The curve with which the log-average luminance of `picture` (of pixels that are not black) becomes a middle grey
+/// of 0.18 and its 99.5th percentile white.
+ToneCurve tone_curve(const Picture& picture);
+
+/// The pixels as colours in [0, 1]. Pictures that are to be compared need one curve.
+std::vector<glm::vec3> tone_mapped(const Picture& picture, const ToneCurve& curve);
+
+/// With the picture's own curve.
 std::vector<glm::vec3> tone_mapped(const Picture& picture);
 
 }  // namespace render

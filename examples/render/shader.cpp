@@ -5,8 +5,11 @@
 #include <span>
 
 #include <lightcuts/cut/lightcut.hpp>
+#include <lightcuts/estimate/adaptive_splitting.hpp>
 #include <lightcuts/estimate/exhaustive.hpp>
 #include <lightcuts/estimate/power.hpp>
+#include <lightcuts/estimate/stochastic_lightcuts.hpp>
+#include <lightcuts/estimate/tree_sampling.hpp>
 #include <lightcuts/estimate/ward.hpp>
 
 #include "oracle.hpp"
@@ -124,16 +127,46 @@ struct Ward {
     float threshold;
 };
 
-struct Power {
-    Power(const Forest& forest, const Options& options)
-        : distribution(forest), samples(options.samples), seed(options.seed) {}
+/// What the sampling methods have in common.
+struct Sampling {
+    Sampling(const Forest&, const Options& options) : samples(options.samples), seed(options.seed) {}
+    std::uint32_t samples;
+    std::uint64_t seed;
+};
+
+struct Power : Sampling {
+    Power(const Forest& forest, const Options& options) : Sampling(forest, options), distribution(forest) {}
     template <class R, class Oracle, class Scratch>
     auto operator()(const Forest& forest, const R& receiver, const Oracle& oracle, Scratch& scratch) const {
         return lightcuts::power_sampling(forest, distribution, receiver, oracle, samples, seed, scratch);
     }
     lightcuts::PowerDistribution distribution;
-    std::uint32_t samples;
-    std::uint64_t seed;
+};
+
+struct TreeSampling : Sampling {
+    using Sampling::Sampling;
+    template <class R, class Oracle, class Scratch>
+    auto operator()(const Forest& forest, const R& receiver, const Oracle& oracle, Scratch& scratch) const {
+        return lightcuts::tree_sampling(forest, receiver, oracle, samples, seed, scratch);
+    }
+};
+
+struct AdaptiveSplitting : Sampling {
+    AdaptiveSplitting(const Forest& forest, const Options& options)
+        : Sampling(forest, options), threshold(options.splitting_threshold) {}
+    template <class R, class Oracle, class Scratch>
+    auto operator()(const Forest& forest, const R& receiver, const Oracle& oracle, Scratch& scratch) const {
+        return lightcuts::adaptive_splitting(forest, receiver, oracle, threshold, samples, seed, scratch);
+    }
+    float threshold;
+};
+
+struct StochasticLightcuts : Sampling {
+    using Sampling::Sampling;
+    template <class R, class Oracle, class Scratch>
+    auto operator()(const Forest& forest, const R& receiver, const Oracle& oracle, Scratch& scratch) const {
+        return lightcuts::stochastic_lightcuts(forest, receiver, oracle, samples, seed, scratch);
+    }
 };
 
 }  // namespace
@@ -142,6 +175,13 @@ std::unique_ptr<Shader> make_shader(const Scene& scene, const RayScene& rays, co
     if (options.method == "exhaustive") return std::make_unique<EstimateShader<Exhaustive>>(scene, rays, options);
     if (options.method == "ward") return std::make_unique<EstimateShader<Ward>>(scene, rays, options);
     if (options.method == "power") return std::make_unique<EstimateShader<Power>>(scene, rays, options);
+    if (options.method == "tree-sampling") return std::make_unique<EstimateShader<TreeSampling>>(scene, rays, options);
+    if (options.method == "adaptive-splitting") {
+        return std::make_unique<EstimateShader<AdaptiveSplitting>>(scene, rays, options);
+    }
+    if (options.method == "stochastic-lightcuts") {
+        return std::make_unique<EstimateShader<StochasticLightcuts>>(scene, rays, options);
+    }
     return std::make_unique<LightcutShader>(scene, rays, options);
 }
 

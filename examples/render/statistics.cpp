@@ -44,6 +44,7 @@ Json options_json(const RunReport& report) {
     json["adaptation"] = as_written(report.adaptation);
     json["samples"] = o.samples;
     json["ward_threshold"] = as_written(o.ward_threshold);
+    json["splitting_threshold"] = as_written(o.splitting_threshold);
     json["builder"] = o.builder;
     json["lights"] = path_or_null(o.lights);
     json["area_points"] = o.area_points;
@@ -82,6 +83,8 @@ Json to_json(const ErrorFigures& figures) {
     json["relative_bias"] = finite_or_null(figures.relative_bias);
     json["max_relative"] = finite_or_null(figures.max_relative);
     json["p999_relative"] = finite_or_null(figures.p999_relative);
+    json["max_step"] = finite_or_null(figures.max_step);
+    json["p999_step"] = finite_or_null(figures.p999_step);
     return json;
 }
 

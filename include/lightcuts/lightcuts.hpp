@@ -3,8 +3,11 @@
 /// Everything that shading by lightcuts needs. Library headers never include this file.
 
 #include "cut/lightcut.hpp"
+#include "estimate/adaptive_splitting.hpp"
 #include "estimate/exhaustive.hpp"
 #include "estimate/power.hpp"
+#include "estimate/stochastic_lightcuts.hpp"
+#include "estimate/tree_sampling.hpp"
 #include "estimate/ward.hpp"
 #include "light/directional.hpp"
 #include "light/omni.hpp"

@@ -6,8 +6,11 @@
 
 #include <gtest/gtest.h>
 
+#include <lightcuts/estimate/adaptive_splitting.hpp>
 #include <lightcuts/estimate/exhaustive.hpp>
 #include <lightcuts/estimate/power.hpp>
+#include <lightcuts/estimate/stochastic_lightcuts.hpp>
+#include <lightcuts/estimate/tree_sampling.hpp>
 #include <lightcuts/estimate/ward.hpp>
 #include "archetypes/archetypes.hpp"
 
@@ -43,6 +46,19 @@ void expect_shading(const Forest& forest) {
     const PowerDistribution distribution(forest);
     EXPECT_GT(power_sampling(forest, distribution, receiver, scalar, 64, 1, scratch).radiance[0], 0.0f);
     EXPECT_GT(power_sampling(forest, distribution, receiver, batched, 64, 1, scratch).radiance[0], 0.0f);
+
+    // With a sample for each light, splitting goes down to single lights.
+    const auto estimate_all = [&](const auto& oracle, const auto&... policy) {
+        EXPECT_GT(tree_sampling(forest, receiver, oracle, 64, 1, scratch, policy...).radiance[0], 0.0f);
+        expect_exact(adaptive_splitting(forest, receiver, oracle, 0.0f, 64, 1, scratch, policy...).radiance);
+        expect_exact(stochastic_lightcuts(forest, receiver, oracle, 64, 1, scratch, policy...).radiance);
+        EXPECT_GT(sample_light(forest, receiver, 0.5, policy...).probability, 0.0);
+    };
+    estimate_all(AlwaysVisible{});
+    estimate_all(scalar);
+    estimate_all(batched);
+    estimate_all(scalar, SeparateBounds{});
+    estimate_all(batched, LeastPolicy{});
 
     const LightcutOptions all{.error_ratio = 0.0f, .max_cut = 0};
     expect_exact(shade(forest, receiver, AlwaysVisible{}, all).radiance);

@@ -6,8 +6,11 @@
 #include <gtest/gtest.h>
 
 #include <lightcuts/cut/lightcut.hpp>
+#include <lightcuts/estimate/adaptive_splitting.hpp>
 #include <lightcuts/estimate/exhaustive.hpp>
 #include <lightcuts/estimate/power.hpp>
+#include <lightcuts/estimate/stochastic_lightcuts.hpp>
+#include <lightcuts/estimate/tree_sampling.hpp>
 #include <lightcuts/estimate/ward.hpp>
 #include "support/scene.hpp"
 
@@ -49,6 +52,9 @@ TEST(Allocation, DoesNotHappenOnceTheScratchIsWarm) {
             exhaustive(forest, receiver, batched, estimates);
             ward(forest, receiver, batched, 0.1f, estimates);
             power_sampling(forest, distribution, receiver, batched, 64, 1, estimates);
+            tree_sampling(forest, receiver, batched, 64, 1, estimates);
+            adaptive_splitting(forest, receiver, batched, 0.1f, 64, 1, estimates);
+            stochastic_lightcuts(forest, receiver, batched, 64, 1, estimates);
         }
     };
     everything();

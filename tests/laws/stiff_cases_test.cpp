@@ -206,6 +206,50 @@ TEST(StiffCase, FlatSegmentPointAndNeedleBoxes) {
     }
 }
 
+// Float vector code must not mistake an overflow for a bound.
+TEST(StiffCase, OneLightIncomparablyFarAmongNearOnes) {
+    for (const float far : {1e9f, 1e15f, 1e17f, 1e18f, 1e19f, 1e20f, 1e30f}) {
+        Room<V> room(7);
+        std::vector<OmniLight<>> omni = room.omni(64);
+        omni.push_back({{far, 0.3f * far, -0.7f * far}, V(1.0f), {}});
+        std::vector<OrientedPointLight<>> oriented = room.oriented(64);
+        oriented.push_back({{far, 0.3f * far, -0.7f * far}, {-1.0f, 0.0f, 0.0f}, V(1.0f), {}});
+        for (const auto& receiver : room.glossy_receivers(10)) {
+            expect_sound(omni, receiver);
+            expect_sound(oriented, receiver);
+        }
+        for (const auto& receiver : room.diffuse_receivers(10)) expect_sound(oriented, receiver);
+    }
+}
+
+TEST(StiffCase, VastAndTinyRooms) {
+    for (const float scale : {1e-17f, 1e-15f, 1e15f, 1e17f, 1e18f}) {
+        Room<V> room(8);
+        std::vector<OmniLight<>> omni = room.omni(64);
+        std::vector<OrientedPointLight<>> oriented = room.oriented(64);
+        for (auto& l : omni) l.position *= scale;
+        for (auto& l : oriented) l.position *= scale;
+        for (auto receiver : room.glossy_receivers(10)) {
+            receiver.position *= scale;
+            expect_sound(omni, receiver);
+            expect_sound(oriented, receiver);
+        }
+    }
+}
+
+// The centre of the cluster's box lies in the receiver's plane, but for a coordinate that is no normal number.
+TEST(StiffCase, CentreInThePlaneUpToADenormal) {
+    for (const float z : {1e-3f, 1e-20f, 1e-37f, 1e-38f, 1e-39f, 0.0f}) {
+        std::vector<OmniLight<>> lights;
+        for (const float x : {0.5f, 1.0f, 1.5f}) {
+            for (const float y : {-1.5f, -1.0f, -0.5f}) lights.push_back({{x, y, y < -0.9f ? 0.0f : z}, V(1.0f), {}});
+        }
+        const V normal(0.70710678f, 0.70710678f, 1e-3f);
+        const Receiver<Lambert<V>> receiver(V(0.0f), Lambert<V>{glm::normalize(normal), V(0.5f)});
+        expect_sound(lights, receiver);
+    }
+}
+
 TEST(StiffCase, ExtremeScales) {
     Room<V> room(4);
     const std::vector<OmniLight<>> lights = room.omni(100);

@@ -10,8 +10,11 @@
 #include <gtest/gtest.h>
 
 #include <lightcuts/cut/lightcut.hpp>
+#include <lightcuts/estimate/adaptive_splitting.hpp>
 #include <lightcuts/estimate/exhaustive.hpp>
 #include <lightcuts/estimate/power.hpp>
+#include <lightcuts/estimate/stochastic_lightcuts.hpp>
+#include <lightcuts/estimate/tree_sampling.hpp>
 #include <lightcuts/estimate/ward.hpp>
 #include <lightcuts/tree/agglomerate.hpp>
 #include <lightcuts/tree/divide.hpp>
@@ -188,6 +191,15 @@ TEST(Threads, EstimateTheSameLightByLight) {
         });
         expect_same_by_threads(receivers.size(), [&](std::size_t i, EstimateScratch<V>& scratch) {
             return power_sampling(scene.forest, distribution, receivers[i], oracle, 32, 7, scratch);
+        });
+        expect_same_by_threads(receivers.size(), [&](std::size_t i, EstimateScratch<V>& scratch) {
+            return tree_sampling(scene.forest, receivers[i], oracle, 32, 7, scratch);
+        });
+        expect_same_by_threads(receivers.size(), [&](std::size_t i, EstimateScratch<V>& scratch) {
+            return adaptive_splitting(scene.forest, receivers[i], oracle, 0.1f, 32, 7, scratch);
+        });
+        expect_same_by_threads(receivers.size(), [&](std::size_t i, EstimateScratch<V>& scratch) {
+            return stochastic_lightcuts(scene.forest, receivers[i], oracle, 32, 7, scratch);
         });
     };
     by_oracle(ScalarOccluders{scene.occluders});

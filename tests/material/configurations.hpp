@@ -130,7 +130,7 @@ auto value_in_lane(const M& m, const glm::vec3& to_light) {
     directions.set(0, to_light);
     lightcuts::detail::repeat_last(directions, 1);
     lightcuts::LaneSpectra<lightcuts::material_spectrum<M>> values;
-    lightcuts::evaluate_lanes(m, directions, values);
+    lightcuts::evaluate_lanes(m, directions, 1, values);
     return values[0];
 }
 

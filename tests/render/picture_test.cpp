@@ -99,6 +99,19 @@ TEST(ToneMapping, KeepsOrderAndRange) {
     for (std::size_t i = 1; i < 100; ++i) EXPECT_GE(colors[i].x, colors[i - 1].x) << i;
 }
 
+TEST(ToneMapping, OfOneCurveShowsEqualRadianceAlike) {
+    Picture picture(3, 1);
+    picture.pixels = {glm::vec3(1.0f), glm::vec3(2.0f), glm::vec3(4.0f)};
+    Picture other(3, 1);
+    other.pixels = {glm::vec3(4.0f), glm::vec3(100.0f), glm::vec3(1.0f)};
+    const auto curve = render::tone_curve(picture);
+    const auto colors = tone_mapped(picture), others = tone_mapped(other, curve);
+    EXPECT_EQ(others[0], colors[2]);
+    EXPECT_EQ(others[2], colors[0]);
+    EXPECT_EQ(others[1], glm::vec3(1.0f));
+    EXPECT_NE(tone_mapped(other)[0], colors[2]);
+}
+
 TEST(ToneMapping, TakesBlackAndBrokenPixels) {
     Picture picture(4, 1);
     EXPECT_EQ(tone_mapped(picture), std::vector<glm::vec3>(4, glm::vec3(0.0f)));
@@ -119,6 +132,8 @@ TEST(ErrorFigures, AreZeroForEqualPictures) {
     EXPECT_EQ(figures.relative_bias, 0.0);
     EXPECT_EQ(figures.max_relative, 0.0);
     EXPECT_EQ(figures.p999_relative, 0.0);
+    EXPECT_EQ(figures.max_step, 0.0);
+    EXPECT_EQ(figures.p999_step, 0.0);
 }
 
 TEST(ErrorFigures, MatchHandComputedValues) {
@@ -147,6 +162,41 @@ TEST(ErrorFigures, PercentileLeavesOutTheWorstThousandth) {
     EXPECT_NEAR(figures.p999_relative, 0.0, 1e-5);
 }
 
+TEST(ErrorFigures, StepsAreThoseThatTheReferenceDoesNotHave) {
+    Picture reference(4, 3);
+    for (std::size_t i = 0; i < reference.size(); ++i) reference.pixels[i] = glm::vec3(i % 4 < 2 ? 1.0f : 8.0f);
+    Picture picture = reference;
+    // Too bright everywhere: the pair across the reference's own edge is wrong by 0.7 of 8, no other is.
+    for (glm::vec3& pixel : picture.pixels) pixel *= 1.1f;
+    EXPECT_NEAR(render::compare(picture, reference).max_step, 0.7 / 8.0, 1e-6);
+    // A band: all rows from the second on. The step is between rows, and relative to the brighter of two.
+    picture = reference;
+    for (std::size_t i = 4; i < picture.size(); ++i) picture.pixels[i] += 0.25f;
+    EXPECT_NEAR(render::compare(picture, reference).max_step, 0.25, 1e-6);
+    // The last pixel of a row and the first of the next are no neighbours.
+    std::fill(reference.pixels.begin(), reference.pixels.end(), glm::vec3(1.0f));
+    picture = reference;
+    picture.pixels[4] += 3.0f;
+    picture.pixels[3] -= 3.0f;
+    EXPECT_NEAR(render::compare(picture, reference).max_step, 3.0, 1e-6);
+}
+
+TEST(ErrorFigures, StepsLeaveOutPairsOfBlackAndTheWorstThousandth) {
+    Picture reference(1001, 1);
+    Picture picture = reference;
+    picture.pixels[500] = glm::vec3(1.0f);
+    EXPECT_EQ(render::compare(picture, reference).max_step, 0.0);
+    reference.pixels[501] = glm::vec3(2.0f);
+    picture.pixels[501] = glm::vec3(2.0f);
+    EXPECT_NEAR(render::compare(picture, reference).max_step, 0.5, 1e-6);
+    std::fill(reference.pixels.begin(), reference.pixels.end(), glm::vec3(1.0f));
+    picture = reference;
+    picture.pixels[0] = glm::vec3(5.0f);  // one pair of 1000
+    const auto figures = render::compare(picture, reference);
+    EXPECT_NEAR(figures.max_step, 4.0, 1e-6);
+    EXPECT_NEAR(figures.p999_step, 0.004, 1e-6);
+}
+
 TEST(ErrorFigures, AreInfiniteAgainstABlackReference) {
     const Picture black(2, 2);
     Picture picture(2, 2);
@@ -165,6 +215,7 @@ TEST(ErrorFigures, DoNotHideBrokenPixels) {
     const auto figures = render::compare(picture, reference);
     EXPECT_TRUE(std::isnan(figures.relative_rmse));
     EXPECT_TRUE(std::isinf(figures.max_relative));
+    EXPECT_TRUE(std::isinf(figures.max_step));
 }
 
 TEST(ErrorFigures, NeedEqualSizes) {

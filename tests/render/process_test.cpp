@@ -75,7 +75,8 @@ TEST_F(Programs, ProgressStaysOffFiles) {
 }
 
 TEST_F(Programs, MatchTheClosedFormOfOneOmniLight) {
-    for (const std::string method : {"exhaustive", "lightcuts"}) {
+    for (const std::string method :
+         {"exhaustive", "lightcuts", "tree-sampling", "adaptive-splitting", "stochastic-lightcuts"}) {
         ASSERT_EQ(render("floor.obj --lights one.csv --size 33x25 --aov depth,normal --method " + method + view).status,
                   0);
         const Picture picture = render::read_exr(folder / "render.exr");
@@ -124,6 +125,30 @@ TEST_F(Programs, AgreeWithinTheStatedError) {
     EXPECT_EQ(Json::parse(compare("exact.exr exact.exr").out).at("max_relative"), 0.0);
 }
 
+TEST_F(Programs, SampleLessWronglyWithMoreSamples) {
+    const std::string scene = "room.obj --area-points 500 --size 48x36 --quiet" + view;
+    ASSERT_EQ(render(scene + "--method exhaustive -o exact.exr").status, 0);
+    for (const std::string method : {"tree-sampling", "adaptive-splitting", "stochastic-lightcuts"}) {
+        const auto error_of = [&](const std::string& samples) {
+            EXPECT_EQ(render(scene + "--reference exact.exr --samples " + samples + " --method " + method).status, 0);
+            const Json json = report("render.json");
+            EXPECT_EQ(json.at("method"), method);
+            EXPECT_GT(json.at("shadow_rays_per_pixel"), 0.0);
+            EXPECT_LE(json.at("shadow_rays_per_pixel"), std::stod(samples));
+            return json.at("error").at("relative_rmse").get<double>();
+        };
+        const double few = error_of("4"), many = error_of("64");
+        EXPECT_LT(many, 0.05) << method;
+        EXPECT_LT(many, 0.6 * few) << method;
+        // Another seed errs otherwise.
+        const std::string picture = folder.read("render.exr");
+        error_of("64 --seed 2");
+        EXPECT_NE(folder.read("render.exr"), picture) << method;
+    }
+    ASSERT_EQ(render(scene + "--method adaptive-splitting --splitting-threshold 0.5").status, 0);
+    EXPECT_EQ(report("render.json").at("options").at("splitting_threshold"), 0.5);
+}
+
 TEST_F(Programs, ShowALayerInFalseColors) {
     ASSERT_EQ(render("room.obj --size 16x12 --quiet --aov cut_size,depth" + view).status, 0);
     const auto shown = compare("render.exr --layer cut_size --white 100 --out cut.png");
@@ -146,7 +171,8 @@ TEST_F(Programs, ShowALayerInFalseColors) {
 
 TEST_F(Programs, MakeTheSameImageWithAnyNumberOfThreads) {
     const std::string scene = "room.obj --size 50x40 --spp 2 --aov cut_size,error_bound --quiet" + view;
-    for (const std::string method : {"lightcuts", "exhaustive"}) {
+    for (const std::string method :
+         {"lightcuts", "exhaustive", "tree-sampling", "adaptive-splitting", "stochastic-lightcuts"}) {
         ASSERT_EQ(render(scene + "--threads 1 -o one.exr --method " + method).status, 0);
         ASSERT_EQ(render(scene + "--threads 2 -o two.exr --method " + method).status, 0);
         EXPECT_EQ(folder.read("one.exr"), folder.read("two.exr")) << method;
@@ -213,6 +239,8 @@ TEST_F(Programs, RefuseBadInputInOneLine) {
         {"room.obj --error-ratio -1", 2, "--error-ratio"},
         {"room.obj --error-ratio nan", 2, "--error-ratio"},
         {"room.obj --max-cut -3", 2, "--max-cut"},
+        {"room.obj --samples 0", 2, "--samples"},
+        {"room.obj --splitting-threshold -1", 2, "--splitting-threshold"},
         {"room.obj --representatives 33", 2, "--representatives"},
         {"room.obj --threads 0", 2, "--threads"},
         {"room.obj --builder oak", 2, "--builder"},
@@ -259,8 +287,7 @@ TEST_F(Programs, RefuseImpossibleCameras) {
 TEST_F(Programs, RefuseWhatALaterVersionBrings) {
     std::vector<std::string> later = {"--clamp auto",   "--clamp-ratio 0.1", "--instants 4", "--shutter 0.5",
                                       "--aperture 0.1", "--focus 3",         "--fog 0.1"};
-    for (const char* method : {"tree-sampling", "adaptive-splitting", "stochastic-lightcuts", "multidimensional",
-                               "reconstruction", "row-column"}) {
+    for (const char* method : {"multidimensional", "reconstruction", "row-column"}) {
         later.push_back(std::string("--method ") + method);
     }
     const auto before = files();

@@ -131,6 +131,21 @@ TEST(AreaLights, AreSpreadEvenlyWhateverTheTriangles) {
     }
 }
 
+TEST(TrianglePiece, IsSampledUniformly) {
+    const detail::TrianglePiece<V> piece{{glm::vec2(0.0f), {1.0f, 0.0f}, {0.0f, 1.0f}}, 0, false, 0.5, V(1.0f)};
+    constexpr int cells = 200;
+    glm::dvec3 moments(0.0);  // of u, v and u^2
+    for (int i = 0; i < cells; ++i) {
+        for (int j = 0; j < cells; ++j) {
+            const glm::dvec2 uv = piece.at((i + 0.5) / cells, (j + 0.5) / cells);
+            moments += glm::dvec3(uv.x, uv.y, uv.x * uv.x) / double(cells * cells);
+        }
+    }
+    EXPECT_NEAR(moments.x, 1.0 / 3.0, 1e-4);
+    EXPECT_NEAR(moments.y, 1.0 / 3.0, 1e-4);
+    EXPECT_NEAR(moments.z, 1.0 / 6.0, 1e-4);
+}
+
 /// Irradiance at the origin on a plane that faces +z, from a rectangle [0, x] x [0, y] at height z of radiance 1:
 /// Lambert's sum over the polygon's edges.
 double irradiance_of_rectangle(double x, double y, double z) {

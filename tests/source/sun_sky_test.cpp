@@ -15,6 +15,7 @@ namespace lightcuts::test {
 namespace {
 
 using V = glm::vec3;
+using std::numbers::pi;
 
 double luminance(const V& rgb) { return 0.2126 * double(rgb.x) + 0.7152 * double(rgb.y) + 0.0722 * double(rgb.z); }
 
@@ -52,6 +53,20 @@ TEST(SunSky, HasTheZenithLuminanceOfThePaper) {
     // Y = (12.1359 - 4.9710) 0.774788 - 0.6465 + 2.4192 = 7.32398 kcd/m^2.
     const SunSky daylight({45.0, 0.0, 3.0});
     EXPECT_NEAR(luminance(daylight.sky_radiance({0.0, 1.0, 0.0})) * SunSky::efficacy, 7324.0, 10.0);
+}
+
+TEST(SunSky, HasTheLuminanceDistributionOfThePaper) {
+    // Turbidity 3: A to E are -0.9269, -0.6387, 5.2570, -2.2153, 0.1693. The sun stands at 45 degrees, the eye looks 60
+    // degrees from the zenith the other way, 105 degrees from the sun.
+    const SunSky daylight({45.0, 0.0, 3.0});
+    const auto distribution = [](double zenith, double to_sun) {
+        const double cosine = std::cos(to_sun);
+        return (1.0 - 0.9269 * std::exp(-0.6387 / std::cos(zenith))) *
+               (1.0 + 5.2570 * std::exp(-2.2153 * to_sun) + 0.1693 * cosine * cosine);
+    };
+    const double expected = distribution(pi / 3.0, pi * 105.0 / 180.0) / distribution(0.0, pi / 4.0);
+    const double zenith = luminance(daylight.sky_radiance({0.0, 1.0, 0.0}));
+    EXPECT_NEAR(luminance(daylight.sky_radiance(direction(30.0, 180.0))) / zenith, expected, 2e-3 * expected);
 }
 
 TEST(SunSky, IsAsBrightAsDaylight) {

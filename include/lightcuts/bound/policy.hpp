@@ -1,6 +1,8 @@
 #pragma once
 
 #include <concepts>
+#include <cstddef>
+#include <limits>
 
 #include "../core/joint.hpp"
 #include "../material/material.hpp"
@@ -16,9 +18,12 @@ concept BoundPolicy = requires(const P& policy, const M& material, const C& clus
     { policy.quick(material, cluster, point) } -> std::convertible_to<material_spectrum<M>>;
 };
 
-/// A policy with a dearer second opinion, `tight(...)`, asked for before a cluster is split.
+/// A policy with a dearer second opinion, `tight(...)`, with the arguments and result of `quick`: asked for before a
+/// cluster is split whose bound is above the threshold by a factor below `doubt`.
 template <class P>
-concept TwoStagePolicy = P::two_stages;
+concept TwoStagePolicy = P::two_stages && requires(const P& policy) {
+    { policy.doubt } -> std::convertible_to<double>;
+};
 
 namespace detail {
 
@@ -108,23 +113,27 @@ material_spectrum<M> material_bound(const M& material, const LightCluster<L>& cl
     }
 }
 
-/// Adds bounds of up to `lane_count` clusters to `units`.
+/// Bounds of up to `lane_count` clusters of one kind.
 template <class M, Light L>
-void add_block_bound(const M& material, const LightCluster<L>* const* clusters, int count, const glm::vec3& point,
-                     ClusterBlock& block, material_spectrum<M>* units) {
+void block_bound(const M& material, const LightCluster<L>* const* clusters, int count, const glm::vec3& point,
+                 ClusterBlock& block, material_spectrum<M>* units) {
     static_assert(
         BoundedMaterial<M> || CompositeMaterial<M> || CosineLobeMaterial<M>,
         "a material needs upper_bound(offsets) const, which returns the spectrum that evaluate(to_light) does; "
         "or a stated cap: Capped{material, cap}");
     using S = material_spectrum<M>;
     if constexpr (CompositeMaterial<M>) {
-        material.for_each_component(
-            [&](const auto& part) { add_block_bound(part, clusters, count, point, block, units); });
+        for (int i = 0; i < count; ++i) units[i] = {};
+        material.for_each_component([&](const auto& part) {
+            LaneSpectra<S> bounds;
+            block_bound(part, clusters, count, point, block, bounds.data());
+            for (int i = 0; i < count; ++i) units[i] = units[i] + bounds[static_cast<std::size_t>(i)];
+        });
     } else if constexpr (CosineLobeMaterial<M>) {
         alignas(32) Lanes bound;
         const auto lobe = material.cosine_lobe();
         lane_cosine_lobe(lobe.normal, clusters, count, point, block, bound);
-        for (int i = 0; i < count; ++i) units[i] = units[i] + scale_bound(S(lobe.scale), bound[i]);
+        for (int i = 0; i < count; ++i) units[i] = scale_bound(S(lobe.scale), bound[i]);
     } else if constexpr (BoundedMaterial<M>) {
         alignas(32) Lanes geometric;
         lane_geometric(clusters, count, point, block, geometric);
@@ -133,13 +142,14 @@ void add_block_bound(const M& material, const LightCluster<L>* const* clusters, 
             material.quick_upper_bounds(block, reflected);
             for (int i = 0; i < count; ++i) {
                 const S& r = reflected[static_cast<std::size_t>(i)];
-                if (geometric[i] > 0.0f) units[i] = units[i] + scale_bound(r, geometric[i]);
+                units[i] = geometric[i] > 0.0f ? scale_bound(r, geometric[i]) : S{};
             }
         } else {
             for (int i = 0; i < count; ++i) {
+                units[i] = {};
                 if (!(geometric[i] > 0.0f)) continue;
                 const OffsetBox box = view_of(*clusters[i], point).box;
-                units[i] = units[i] + scale_bound(S(material.upper_bound(box)), geometric[i]);
+                units[i] = scale_bound(S(material.upper_bound(box)), geometric[i]);
             }
         }
     }
@@ -150,8 +160,7 @@ template <class M, Light L>
 void block_bound(const M& material, const LightCluster<L>* const* clusters, int count, const glm::vec3& point,
                  material_spectrum<M>* units) {
     ClusterBlock block(clusters, count, point);
-    for (int i = 0; i < count; ++i) units[i] = {};
-    add_block_bound(material, clusters, count, point, block, units);
+    block_bound(material, clusters, count, point, block, units);
 }
 
 /// As `material_bound`, but both cosines of a diffuse surface and of diffuse emitters are bounded together also where
@@ -183,8 +192,8 @@ struct SeparateBounds {
     }
 };
 
-/// The default: a bound without iteration for every cluster, and the nearly exact, joint one for a cluster that is
-/// about to be split.
+/// The default: a bound without iteration, for several clusters at once, and, if asked for, the nearly exact, joint one
+/// for a cluster that is about to be split.
 struct TwoStageBounds {
     static constexpr bool two_stages = true;
     /// Clusters whose quick bound is above the threshold by less than this factor get the tight one before they are

@@ -5,6 +5,8 @@
 
 #include <glm/vec3.hpp>
 
+#include "rounding.hpp"
+
 namespace lightcuts {
 
 /// Arithmetic on several values side by side: plain loops over arrays of this many floats, which compilers turn into

@@ -50,7 +50,11 @@ struct OffsetBlock {
             const float y = detail::larger(detail::magnitude(centre[1][i]) - half[1][i], 0.0f);
             const float z = detail::larger(detail::magnitude(centre[2][i]) - half[2][i], 0.0f);
             const float d2 = x * x + y * y + z * z;
-            const bool in_range = detail::smaller(d2 - 1e-30f, 1e37f - d2) > 0.0f;
+            const float far_x = detail::magnitude(centre[0][i]) + half[0][i],
+                        far_y = detail::magnitude(centre[1][i]) + half[1][i],
+                        far_z = detail::magnitude(centre[2][i]) + half[2][i];
+            const float farthest2 = far_x * far_x + far_y * far_y + far_z * far_z;
+            const bool in_range = detail::smaller(d2 - 1e-30f, 1e34f - farthest2) > 0.0f;
             inverse[i] = detail::select(in_range, detail::inverse_sqrt(d2) * 1.000001f,
                                         std::numeric_limits<float>::infinity());
         }
@@ -144,6 +148,7 @@ void lane_power(const LaneVectors& v, const LaneSupport& s, const OffsetBlock& b
         const bool in_front = at_centre > 0.0f;
         step[i] = select(in_front, cx * cx + cy * cy + cz * cz, rx * rx + ry * ry + rz * rz) /
                   (k * select(in_front, at_centre, most));
+        step[i] = smaller(larger(step[i], 1e-18f), 1e18f);  // any will do that overflows nothing
         const float inverse = b.inverse[i];
         // From the left, since the powers alone would be denormal far away.
         best[i] = K == 1 ? most * inverse : K == 2 ? most * inverse * inverse : most * inverse * inverse * inverse;
@@ -157,9 +162,10 @@ void lane_power(const LaneVectors& v, const LaneSupport& s, const OffsetBlock& b
                             (K == 1   ? 1.0f
                              : K == 2 ? inverse
                                       : inverse * inverse);
-        const float padded = larger(best[i] * 1.00001f + slack, 1e-37f);
-        // Comparisons that fail for NaN leave infinity.
-        result[i] = select(s.value[i] <= -s.noise[i], 0.0f, select(padded < largest, padded, infinity));
+        const float padded = best[i] * 1.00001f + slack;
+        // The comparison that fails for NaN leaves infinity.
+        const float in_front = select(padded < largest, larger(padded, 1e-37f), infinity);
+        result[i] = select(s.value[i] <= -s.noise[i], 0.0f, in_front);
     }
     for (int i = 0; i < lane_count; ++i) bound[i] = result[i];
 }

@@ -4,6 +4,10 @@
 #include <cstdint>
 #include <limits>
 
+#if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+#error "lightcuts: compile without -ffast-math and -ffinite-math-only; its guards rely on infinities and NaN"
+#endif
+
 namespace lightcuts {
 
 /// Unit roundoff of double: half the distance from 1 to the next number.

@@ -5,10 +5,6 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
-#ifdef __FAST_MATH__
-#error "lightcuts: compile without -ffast-math; its guards rely on infinities and NaN"
-#endif
-
 namespace lightcuts {
 
 /// How the library reads a three-dimensional vector that it does not own.

@@ -25,7 +25,10 @@ public:
 
     explicit LightForest(const LightTree<Ls>&... trees) : trees_(&trees...) {}
     /// The forest would refer to trees that are gone.
-    explicit LightForest(const LightTree<Ls>&&... trees) = delete;
+    template <class... Ts>
+        requires(sizeof...(Ts) == sizeof...(Ls) && (!std::is_lvalue_reference_v<Ts> || ...) &&
+                 (std::same_as<std::remove_cvref_t<Ts>, LightTree<Ls>> && ...))
+    explicit LightForest(Ts&&... trees) = delete;
 
     /// Calls `f(tree)` with the tree of kind `kind` and returns its result. pre: kind < kinds.
     template <class F>

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -73,6 +74,8 @@ CutResult<S> cut_result(const Refinement<CutNode<S>>& refinement, const CutTotal
 /// their own batches. Refers to the trees, the receiver and the oracle. `shade` is the one-shot function.
 template <class Forest, class R, class Oracle, class Policy = TwoStageBounds>
 class Lightcut {
+    static constexpr bool kept_by_value = std::is_empty_v<Oracle> && std::is_copy_constructible_v<Oracle>;
+
 public:
     using S = typename Forest::spectrum;
 
@@ -88,6 +91,14 @@ public:
     /// The cut would refer to a receiver that is gone.
     template <TreeOrForest Lights, class... Rest>
     Lightcut(const Lights&, const R&&, const Rest&...) = delete;
+    /// The cut would refer to an oracle that is gone; one without members is kept by value.
+    template <TreeOrForest Lights, class... Rest>
+        requires(!kept_by_value)
+    Lightcut(const Lights&, const R&, const Oracle&&, const Rest&...)
+    = delete;
+    /// The cut would refer to a tree that is gone.
+    template <Light L, class... Rest>
+    Lightcut(const LightTree<L>&&, const Rest&...) = delete;
 
     /// One round; false, having done nothing, when the cut is final.
     bool step() {
@@ -128,7 +139,7 @@ private:
 
     Forest forest_;
     const R& receiver_;
-    const Oracle& oracle_;
+    [[no_unique_address]] std::conditional_t<kept_by_value, Oracle, const Oracle&> oracle_;
     LightcutOptions options_;
     Policy policy_;
     RefinementOptions refinement_options_;

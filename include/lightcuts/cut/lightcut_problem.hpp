@@ -36,10 +36,10 @@ struct CutTotals {
     static constexpr std::size_t channels = static_cast<std::size_t>(channels_of<S>);
     using Sums = std::array<double, channels>;
 
-    Sums total{};        ///< running sum of the estimates
-    double largest = 0;  ///< largest running sum since it was last computed afresh
-    Sums weight{};       ///< 1 / (total + adaptation): what turns a bound into a priority
-    Sums least{};        ///< least weights since the last mark
+    Sums total{};    ///< running sum of the estimates
+    Sums largest{};  ///< largest running sum since it was last computed afresh
+    Sums weight{};   ///< 1 / (total + adaptation): what turns a bound into a priority
+    Sums least{};    ///< least weights since the last mark
     std::uint32_t queries = 0;
 };
 
@@ -62,7 +62,7 @@ public:
     LightcutProblem(const Forest& forest, const R& receiver, const Oracle& oracle, const Policy& policy,
                     const LightcutOptions& options, CutTotals<S>& totals, std::vector<VisibilityQuery>& queries)
         : forest_(forest), receiver_(receiver), oracle_(oracle), policy_(policy), options_(options), totals_(totals),
-          queries_(queries) {}
+          queries_(queries), threshold_(static_cast<double>(options.error_ratio)) {}
 
     void roots(std::vector<node>& out) {
         totals_ = {};
@@ -154,11 +154,13 @@ public:
     void observe(const Visit& visit) {
         // Differences of a sum that was once much larger are noise.
         constexpr double cancellation = 1e6;
-        double smallest = totals_.total[0];
-        for (const double t : totals_.total) smallest = t < smallest ? t : smallest;
-        if (!(totals_.largest <= cancellation * smallest)) {
+        bool is_noise = false;
+        for (std::size_t c = 0; c < totals_.total.size(); ++c) {
+            is_noise = is_noise || !(totals_.largest[c] <= cancellation * totals_.total[c]);
+        }
+        if (is_noise) {
             totals_.total = {};
-            totals_.largest = 0.0;
+            totals_.largest = {};
             visit([this](const node& n) { add(n.estimate, 1.0); });
         }
         for (std::size_t c = 0; c < totals_.total.size(); ++c) {
@@ -189,9 +191,10 @@ public:
         return largest;
     }
 
-    double threshold() const { return static_cast<double>(options_.error_ratio); }
+    double threshold() const { return threshold_; }
 
-    /// Clusters around the receiver, whose bounds are infinite, go by intensity over squared diagonal.
+    /// Clusters around the receiver, whose bounds are infinite, go by intensity over squared diagonal. (The cosine that
+    /// might go with it is the material's secret.)
     bool before(const node& a, const node& b) const {
         const double density_a = density(a), density_b = density(b);
         if (density_a != density_b) return density_a > density_b;
@@ -289,6 +292,9 @@ private:
     template <class Tree>
     void bound_nodes(const Tree& tree, std::span<RefinementCandidate<node>* const> candidates) const {
         using Cluster = typename Tree::cluster;
+        static_assert(BoundPolicy<Policy, material, Cluster>,
+                      "a bound policy needs quick(material, cluster, point) const, which returns the material's "
+                      "spectrum");
         std::array<const Cluster*, lane_count> clusters;
         std::array<S, lane_count> units;
         const std::size_t count = candidates.size();
@@ -305,22 +311,26 @@ private:
         }
         for (std::size_t i = 0; i < count; ++i) {
             node& n = *candidates[i]->node;
-            double& p = candidates[i]->priority;
             lower_bound(n, units[i], *clusters[i]);
             n.bounded = true;
-            p = priority(n);
-            if constexpr (TwoStagePolicy<Policy>) {
-                // The dear bound is worth it only where it may change the decision.
+            candidates[i]->priority = priority(n);
+        }
+        if constexpr (TwoStagePolicy<Policy>) {
+            // The dear bound is worth it only where it may change the decision.
+            for (std::size_t i = 0; policy_.doubt > 1.0 && i < count; ++i) {
+                node& n = *candidates[i]->node;
+                double& p = candidates[i]->priority;
                 if (p > threshold() && p < policy_.doubt * threshold()) {
                     lower_bound(n, policy_.tight(receiver_.material, *clusters[i], receiver_.position), *clusters[i]);
                     p = priority(n);
                 }
             }
-            if constexpr (BoundedOracle<Oracle, R, typename Tree::light_type>) {
-                if (p > threshold()) {
-                    hide(n, *clusters[i]);
-                    p = priority(n);
-                }
+        }
+        if constexpr (BoundedOracle<Oracle, R, typename Tree::light_type>) {
+            for (std::size_t i = 0; i < count; ++i) {
+                if (!(candidates[i]->priority > threshold())) continue;
+                hide(*candidates[i]->node, *clusters[i]);
+                candidates[i]->priority = priority(*candidates[i]->node);
             }
         }
     }
@@ -354,7 +364,8 @@ private:
         for (int c = 0; c < channels_of<S>; ++c) {
             double& total = totals_.total[static_cast<std::size_t>(c)];
             total += sign * static_cast<double>(channel(estimate, c));
-            totals_.largest = total > totals_.largest ? total : totals_.largest;
+            double& largest = totals_.largest[static_cast<std::size_t>(c)];
+            largest = total > largest ? total : largest;
         }
     }
 
@@ -366,13 +377,14 @@ private:
         });
     }
 
-    const Forest& forest_;
+    Forest forest_;
     const R& receiver_;
     const Oracle& oracle_;
     const Policy& policy_;
     const LightcutOptions& options_;
     CutTotals<S>& totals_;
     std::vector<VisibilityQuery>& queries_;
+    double threshold_;
 };
 
 }  // namespace lightcuts

@@ -18,16 +18,18 @@ namespace lightcuts {
 /// - `priority(node)`: not negative, possibly infinite, never NaN. Use bounds, never what an estimate happened to
 ///   show: that biases sums.
 /// - `threshold()`: nodes of a priority above it are refined. May change between rounds.
-/// - `split(node, out)`: appends the two nodes that replace it. `node` lies in `out`, which has room.
+/// - `split(node, out)`: appends the nodes that replace it: two, or fewer if some need not be in the cut. `node` lies
+/// in
+///   `out`, which has room.
 /// - `before(a, b)`: a total order that breaks ties of priority, infinite ones above all.
 ///
 /// Optional:
 /// - `settled(node)`: true if the node can never be refined; the engine then looks at it no more.
 /// - `tighten(span of candidates)`: lowers priorities where it pays, before any of the nodes is split, in the nodes and
 ///   in the candidates. These are all nodes above the threshold; a node may come again.
-/// - `observe(visit)`: called before each round; `visit(f)` calls f(node) for the whole frontier, so that the problem
-/// can
-///   sum up where it has lost count.
+/// - `observe(visit)`: called before each round; `visit(f)` calls f(node) for the whole frontier, for problems that
+/// have
+///   to sum up where they have lost count.
 /// - `mark()` and `growth()`: the second bounds the factor by which any priority has grown since the first was called.
 ///   Spares the engine from looking at nodes far below the threshold in every round.
 template <class P>
@@ -89,7 +91,7 @@ public:
     /// Returns false, leaving `fresh` empty, when the refinement has ended. pre: the last `fresh` was absorbed.
     template <RefinementProblem P>
     bool split(P& problem, const RefinementOptions& options) {
-        const auto visit = [this](auto&& f) { for_each(f); };
+        const auto visit = [this](auto&& f) { this->for_each(f); };
         if constexpr (requires { problem.observe(visit); }) problem.observe(visit);
         if constexpr (tells_growth<P>) {
             if (problem.growth() * rest_below > 1.0) {
@@ -116,10 +118,12 @@ public:
     template <RefinementProblem P>
     void absorb(const P& problem) {
         const double rest = rest_below * problem.threshold();
-        for (; absorbed_ < nodes_.size(); ++absorbed_) {
-            const Node& node = nodes_[absorbed_];
+        const std::size_t begin = absorbed_;
+        absorbed_ = nodes_.size();
+        for (std::size_t i = begin; i < absorbed_; ++i) {
+            const Node& node = nodes_[i];
             const bool rests = is_settled(problem, node) || (tells_growth<P> && problem.priority(node) <= rest);
-            (rests ? resting_ : active_).push_back(static_cast<std::uint32_t>(absorbed_));
+            (rests ? resting_ : active_).push_back(static_cast<std::uint32_t>(i));
         }
     }
 
@@ -181,7 +185,7 @@ private:
         for (const Candidate& candidate : chosen_) {
             if (candidate.priority < infinity && candidate.priority > largest) largest = candidate.priority;
         }
-        const double cutoff = fraction * largest;
+        const double cutoff = (fraction < 1.0 ? fraction : 1.0) * largest;
         std::erase_if(chosen_, [&](const Candidate& candidate) {
             return !(candidate.priority > threshold) || candidate.priority < cutoff;
         });

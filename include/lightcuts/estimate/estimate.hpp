@@ -8,8 +8,10 @@
 #include <vector>
 
 #include "../cut/forest.hpp"
+#include "../cut/refinement.hpp"
 #include "../material/terms.hpp"
 #include "../visibility/oracle.hpp"
+#include "importance.hpp"
 
 namespace lightcuts {
 
@@ -29,8 +31,34 @@ struct EstimateScratch {
         std::uint32_t light;
         std::uint32_t kind;
     };
+    /// A light drawn at random, and by what its contribution is multiplied: the inverse of its chance.
+    struct Draw {
+        std::uint32_t light;
+        std::uint32_t kind;
+        double weight;
+    };
+    /// A node that some of the random numbers have reached.
+    struct Visit {
+        std::uint32_t node;
+        std::uint32_t begin, end;  ///< of the numbers
+        double weight;             ///< of each number: divided by its chance to come here
+        double resolution;         ///< that chance, counted from where the numbers were drawn
+    };
+    /// A node from which lights are drawn, apart from the others.
+    struct Stratum {
+        std::uint32_t node;
+        std::uint32_t kind;
+        bool leaf;
+        Importance importance;
+        double priority;
+    };
     std::vector<Contribution> contributions;
     std::vector<double> sums;
+    std::vector<double> numbers;
+    std::vector<Visit> visits;
+    std::vector<Draw> draws;
+    std::vector<Stratum> strata;
+    Refinement<Stratum> refinement;
     std::vector<VisibilityQuery> queries;
     std::vector<float> answers;
 };
@@ -75,14 +103,18 @@ struct RadianceSum {
     }
 };
 
-/// Asks the oracle about `contributions` and calls `take(contribution, visibility)` for each, in order.
+/// Asks the oracle about `contributions` and calls `take(contribution, visibility)` for each, in order. Returns the
+/// number of questions: none of AlwaysVisible.
 template <class Forest, class M, class Oracle, Spectrum S, class Contribution, class Take>
-void ask(const Forest& forest, const Receiver<M>& receiver, const Oracle& oracle, EstimateScratch<S>& scratch,
-         std::span<const Contribution> contributions, Take&& take) {
+std::uint32_t ask(const Forest& forest, const Receiver<M>& receiver, const Oracle& oracle, EstimateScratch<S>& scratch,
+                  std::span<const Contribution> contributions, Take&& take) {
     static_assert(answers<Oracle, Receiver<M>, Forest>,
                   "an oracle needs operator()(receiver, light) const, which returns a bool or a fraction, or "
                   "many(queries, answers) const");
-    if constexpr (BatchedOracle<Oracle>) {
+    if constexpr (std::same_as<Oracle, AlwaysVisible>) {
+        for (const Contribution& c : contributions) take(c, 1.0f);
+        return 0;
+    } else if constexpr (BatchedOracle<Oracle>) {
         scratch.queries.clear();
         for (const Contribution& c : contributions) {
             forest.visit(c.kind, [&](const auto& tree) {
@@ -97,12 +129,14 @@ void ask(const Forest& forest, const Receiver<M>& receiver, const Oracle& oracle
             oracle.many(std::span<const VisibilityQuery>(scratch.queries), std::span(scratch.answers));
         }
         for (std::size_t i = 0; i < contributions.size(); ++i) take(contributions[i], scratch.answers[i]);
+        return static_cast<std::uint32_t>(contributions.size());
     } else {
         for (const Contribution& c : contributions) {
             take(c, forest.visit(c.kind, [&](const auto& tree) {
                 return static_cast<float>(oracle(receiver, tree.lights()[c.light]));
             }));
         }
+        return static_cast<std::uint32_t>(contributions.size());
     }
 }
 

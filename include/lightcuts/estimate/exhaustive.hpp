@@ -6,19 +6,19 @@ namespace lightcuts {
 
 /// The exact sum over all lights [Lightcuts 2005, Eq. 1], in double. A light whose terms are zero costs no shadow
 /// ray. cost: linear in the lights; a batched oracle gets up to 1024 rays at once.
-template <class Forest, class M, class Oracle>
-Estimate<typename Forest::spectrum> exhaustive(const Forest& forest, const Receiver<M>& receiver, const Oracle& oracle,
-                                               EstimateScratch<typename Forest::spectrum>& scratch) {
-    using S = typename Forest::spectrum;
+template <TreeOrForest Lights, class M, class Oracle>
+Estimate<forest_spectrum<Lights>> exhaustive(const Lights& lights, const Receiver<M>& receiver, const Oracle& oracle,
+                                             EstimateScratch<forest_spectrum<Lights>>& scratch) {
+    const auto& forest = as_forest(lights);
+    using S = forest_spectrum<Lights>;
     using Contribution = typename EstimateScratch<S>::Contribution;
     constexpr std::size_t batch = 1024;
     Estimate<S> result;
     detail::RadianceSum<S> sum;
     const auto flush = [&] {
-        detail::ask(
+        result.queries += detail::ask(
             forest, receiver, oracle, scratch, std::span<const Contribution>(scratch.contributions),
             [&](const Contribution& c, float visibility) { sum.add(c.radiance, static_cast<double>(visibility)); });
-        result.queries += static_cast<std::uint32_t>(scratch.contributions.size());
         scratch.contributions.clear();
     };
     scratch.contributions.clear();

@@ -51,12 +51,13 @@ private:
 
 /// Estimates the sum over all lights from `samples` of them, drawn in proportion to intensity and stratified.
 /// Unbiased. cost: `samples` terms and shadow rays, whatever the number of lights.
-template <class Forest, class M, class Oracle>
-Estimate<typename Forest::spectrum> power_sampling(const Forest& forest, const PowerDistribution& distribution,
-                                                   const Receiver<M>& receiver, const Oracle& oracle,
-                                                   std::uint32_t samples, std::uint64_t seed,
-                                                   EstimateScratch<typename Forest::spectrum>& scratch) {
-    using S = typename Forest::spectrum;
+template <TreeOrForest Lights, class M, class Oracle>
+Estimate<forest_spectrum<Lights>> power_sampling(const Lights& lights, const PowerDistribution& distribution,
+                                                 const Receiver<M>& receiver, const Oracle& oracle,
+                                                 std::uint32_t samples, std::uint64_t seed,
+                                                 EstimateScratch<forest_spectrum<Lights>>& scratch) {
+    const auto& forest = as_forest(lights);
+    using S = forest_spectrum<Lights>;
     using Contribution = typename EstimateScratch<S>::Contribution;
     Estimate<S> result;
     if (distribution.empty()) return result;
@@ -73,9 +74,9 @@ Estimate<typename Forest::spectrum> power_sampling(const Forest& forest, const P
         });
     }
     detail::RadianceSum<S> sum;
-    detail::ask(forest, receiver, oracle, scratch, std::span<const Contribution>(scratch.contributions),
-                [&](const Contribution& c, float visibility) { sum.add(c.radiance, static_cast<double>(visibility)); });
-    result.queries = static_cast<std::uint32_t>(scratch.contributions.size());
+    result.queries = detail::ask(
+        forest, receiver, oracle, scratch, std::span<const Contribution>(scratch.contributions),
+        [&](const Contribution& c, float visibility) { sum.add(c.radiance, static_cast<double>(visibility)); });
     result.radiance = sum.value();
     return result;
 }

@@ -10,10 +10,11 @@ namespace lightcuts {
 /// order until those that are left could add no more than `threshold` of what was found, then adds the rest scaled
 /// by the visible share so far. Not a bound: the rest may be darker or brighter than that.
 /// pre: threshold >= 0. cost: linear in the lights, plus a sort, plus the rays tested, in blocks of 16.
-template <class Forest, class M, class Oracle>
-Estimate<typename Forest::spectrum> ward(const Forest& forest, const Receiver<M>& receiver, const Oracle& oracle,
-                                         float threshold, EstimateScratch<typename Forest::spectrum>& scratch) {
-    using S = typename Forest::spectrum;
+template <TreeOrForest Lights, class M, class Oracle>
+Estimate<forest_spectrum<Lights>> ward(const Lights& lights, const Receiver<M>& receiver, const Oracle& oracle,
+                                       float threshold, EstimateScratch<forest_spectrum<Lights>>& scratch) {
+    const auto& forest = as_forest(lights);
+    using S = forest_spectrum<Lights>;
     using Contribution = typename EstimateScratch<S>::Contribution;
     constexpr std::size_t block = 16;
     scratch.contributions.clear();
@@ -43,13 +44,13 @@ Estimate<typename Forest::spectrum> ward(const Forest& forest, const Receiver<M>
     while (!left.empty() &&
            scratch.sums[scratch.contributions.size() - left.size()] > static_cast<double>(threshold) * found_sum) {
         const auto tested = left.first(std::min(block, left.size()));
-        detail::ask(forest, receiver, oracle, scratch, tested, [&](const Contribution& c, float visibility) {
-            found.add(c.radiance, static_cast<double>(visibility));
-            const double sum = channel_sum(c.radiance);
-            found_sum += sum * static_cast<double>(visibility);
-            tested_sum += sum;
-        });
-        result.queries += static_cast<std::uint32_t>(tested.size());
+        result.queries += detail::ask(forest, receiver, oracle, scratch, tested,
+                                      [&](const Contribution& c, float visibility) {
+                                          found.add(c.radiance, static_cast<double>(visibility));
+                                          const double sum = channel_sum(c.radiance);
+                                          found_sum += sum * static_cast<double>(visibility);
+                                          tested_sum += sum;
+                                      });
         left = left.subspan(tested.size());
     }
     if (!left.empty() && tested_sum > 0.0) {

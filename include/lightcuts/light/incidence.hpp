@@ -20,7 +20,7 @@ glm::vec3 place_of(const L& light) {
 /// How a light reaches a point, shadows apart.
 struct Incidence {
     glm::vec3 to_light;  ///< unit direction; meaningless if `geometric` is 0
-    double geometric;    ///< emission x attenuation [Lightcuts 2005, Eq. 3]: finite, not negative
+    double geometric;  ///< emission x attenuation [Lightcuts 2005, Eq. 3]: not negative; infinite only if a falloff is
 };
 
 /// The geometric term of `light` at `point`. A point light exactly at the point contributes nothing.
@@ -103,8 +103,11 @@ void incidences(const LightBlock& lights, const glm::vec3& point, IncidenceBlock
             const float x = lights.place.x[0][i] - point.x, y = lights.place.x[1][i] - point.y,
                         z = lights.place.x[2][i] - point.z;
             const float d2 = x * x + y * y + z * z;
-            const float inverse = detail::inverse_sqrt(d2);
-            const float ux = x * inverse, uy = y * inverse, uz = z * inverse;
+            const bool in_range = smaller(d2 - 1e-20f, 1e20f - d2) > 0.0f;
+            // Materials are promised unit vectors, whatever becomes of the result.
+            const float inverse = detail::inverse_sqrt(select(in_range, d2, 1.0f));
+            const float ux = select(in_range, x * inverse, 0.0f), uy = select(in_range, y * inverse, 0.0f),
+                        uz = select(in_range, z * inverse, 1.0f);
             float geometric = inverse * inverse;
             if constexpr (OrientedLight<L>) {
                 const float cosine = -(lights.axis.x[0][i] * ux + lights.axis.x[1][i] * uy + lights.axis.x[2][i] * uz);
@@ -114,7 +117,7 @@ void incidences(const LightBlock& lights, const glm::vec3& point, IncidenceBlock
             arriving.to_light.x[1][i] = uy;
             arriving.to_light.x[2][i] = uz;
             arriving.geometric[i] = geometric;
-            arriving.in_range[i] = select(smaller(d2 - 1e-20f, 1e20f - d2) > 0.0f, 1.0f, 0.0f);
+            arriving.in_range[i] = select(in_range, 1.0f, 0.0f);
         }
     }
 }

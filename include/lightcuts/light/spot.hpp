@@ -11,6 +11,7 @@ struct SpotProfile {
     float cos_outer = 0.70710678f;
 
     constexpr float operator()(float cosine) const {
+        if (!(cos_inner > cos_outer)) return cosine >= cos_outer ? 1.0f : 0.0f;
         const float ramp = (cosine - cos_outer) / (cos_inner - cos_outer);
         const float clamped = ramp < 0.0f ? 0.0f : ramp > 1.0f ? 1.0f : ramp;
         return clamped * clamped;

@@ -22,8 +22,8 @@ struct AboveHorizon {
         return detail::dot(glm::dvec3(geometric_normal), glm::dvec3(to_light)) > 0.0 ? material.evaluate(to_light)
                                                                                      : S{};
     }
-    void evaluate_many(const LaneVectors& to_lights, LaneSpectra<S>& values) const {
-        evaluate_lanes(material, to_lights, values);
+    void evaluate_many(const LaneVectors& to_lights, LaneSpectra<S>& values) const requires LaneMaterial<Inner> {
+        material.evaluate_many(to_lights, values);
         for (int i = 0; i < lane_count; ++i) {
             if (!(glm::dot(geometric_normal, to_lights.at(i)) > 0.0f)) values[static_cast<std::size_t>(i)] = S{};
         }

@@ -85,20 +85,20 @@ concept CompositeMaterial = Material<M> && requires(const M& m, detail::AnyCompo
     m.for_each_component(visit);
 };
 
-/// `evaluate` for every lane: by `evaluate_many` if the material has it, part by part if it is composite.
+/// `evaluate` for the first `count` lanes: by `evaluate_many` if the material has it, part by part if it is composite.
 template <Material M>
-void evaluate_lanes(const M& m, const LaneVectors& to_lights, LaneSpectra<material_spectrum<M>>& values) {
+void evaluate_lanes(const M& m, const LaneVectors& to_lights, int count, LaneSpectra<material_spectrum<M>>& values) {
     if constexpr (LaneMaterial<M>) {
         m.evaluate_many(to_lights, values);
     } else if constexpr (CompositeMaterial<M>) {
         values = {};
         m.for_each_component([&](const auto& part) {
             LaneSpectra<material_spectrum<M>> terms;
-            evaluate_lanes(part, to_lights, terms);
+            evaluate_lanes(part, to_lights, count, terms);
             for (std::size_t i = 0; i < values.size(); ++i) values[i] = values[i] + terms[i];
         });
     } else {
-        for (int i = 0; i < lane_count; ++i) values[static_cast<std::size_t>(i)] = m.evaluate(to_lights.at(i));
+        for (int i = 0; i < count; ++i) values[static_cast<std::size_t>(i)] = m.evaluate(to_lights.at(i));
     }
 }
 

@@ -33,7 +33,7 @@ void unshadowed_terms(const Receiver<M>& receiver, const LightBlock& lights, int
     } else {
         IncidenceBlock arriving;
         incidences<L>(lights, receiver.position, arriving);
-        evaluate_lanes(receiver.material, arriving.to_light, terms);
+        evaluate_lanes(receiver.material, arriving.to_light, count, terms);
         for (int i = 0; i < count; ++i) {
             S& t = terms[static_cast<std::size_t>(i)];
             if (arriving.in_range[i] != 0.0f) {

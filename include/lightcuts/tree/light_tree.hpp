@@ -55,6 +55,10 @@ public:
 template <Light L>
 class LightTree<L> {
     static_assert(
+        !PointLight<L> || OrientedLight<L> || !requires(const L& l) { detail::direction_of(l); },
+        "a light with position() and direction() is ambiguous: name the direction of maximum emission axis(), or leave "
+        "out the position of a light at infinity");
+    static_assert(
         OrientedLight<L> || !requires(const L& l) { detail::emission_of(l, 0.0f); },
         "a light with emission(cos) needs axis(), from which the angle is measured");
     static_assert(
@@ -80,7 +84,7 @@ public:
             throw invalid_input("representatives: " + std::to_string(options.representatives) + " is not in 1 to 32");
         }
         build_topology(builder, execute);
-        refit();
+        summarise();
     }
 
     template <class Builder = BinnedBuilder, Executor E = Sequential>
@@ -94,8 +98,36 @@ public:
 
     /// Brings boxes, cones, intensities and representatives up to date after lights moved, turned or dimmed in
     /// place. The topology stays: rebuild when clusters have drifted apart. cost: O(N).
+    /// throws: invalid_input as the constructor does; the tree then is as it was.
     /// pre: the same lights are lit as when the tree was built.
     void refit() {
+        for (node_index n = 0; n < tree_.size(); ++n) {
+            if (tree_.is_leaf(n)) checked_item(lights_[tree_.item(n)], tree_.item(n));
+        }
+        summarise();
+    }
+
+    /// True if no light is lit.
+    bool empty() const { return tree_.empty(); }
+    std::span<const L> lights() const { return lights_; }
+    const ClusterTree& topology() const { return tree_; }
+    std::span<const cluster> clusters() const { return clusters_; }
+    const Representatives& representatives() const { return representatives_; }
+
+    /// Bytes held, not counting the caller's lights.
+    std::size_t memory_bytes() const {
+        return tree_.words().capacity() * sizeof(std::uint32_t) + clusters_.capacity() * sizeof(cluster) +
+               representatives_.memory_bytes();
+    }
+
+private:
+    using Item = std::conditional_t<cluster::oriented, OrientedItem, PointItem>;
+
+    [[noreturn]] static void reject(std::size_t index, const char* what) {
+        throw invalid_input("light " + std::to_string(index) + ": " + what);
+    }
+
+    void summarise() {
         constexpr int channels = channels_of<spectrum>;
         using Sums = std::array<double, static_cast<std::size_t>(channels)>;
         std::vector<Sums> sums(tree_.size());
@@ -118,26 +150,6 @@ public:
             for (const double s : sum) weights[n] += s;
         }
         representatives_ = Representatives(tree_, weights, options_.representatives, options_.seed);
-    }
-
-    /// True if no light is lit.
-    bool empty() const { return tree_.empty(); }
-    std::span<const L> lights() const { return lights_; }
-    const ClusterTree& topology() const { return tree_; }
-    std::span<const cluster> clusters() const { return clusters_; }
-    const Representatives& representatives() const { return representatives_; }
-
-    /// Bytes held, not counting the caller's lights.
-    std::size_t memory_bytes() const {
-        return tree_.words().capacity() * sizeof(std::uint32_t) + clusters_.capacity() * sizeof(cluster) +
-               representatives_.memory_bytes();
-    }
-
-private:
-    using Item = std::conditional_t<cluster::oriented, OrientedItem, PointItem>;
-
-    [[noreturn]] static void reject(std::size_t index, const char* what) {
-        throw invalid_input("light " + std::to_string(index) + ": " + what);
     }
 
     static Item checked_item(const L& light, std::size_t index) {

@@ -11,8 +11,8 @@
 #include <span>
 #include <vector>
 
-#include "cluster_block.hpp"
 #include "cluster_size.hpp"
+#include "neighbour_block.hpp"
 
 namespace lightcuts::detail {
 
@@ -31,7 +31,7 @@ struct Neighbour {
 template <bool Oriented>
 class NeighbourTree {
 public:
-    static constexpr std::size_t fan = Block<Oriented>::lanes;
+    static constexpr std::size_t fan = NeighbourBlock<Oriented>::lanes;
 
     /// Refers to `clusters`; merged ones must be announced by `replace` and `erase`. `per_weight` scales weights for
     /// the bounds.
@@ -123,7 +123,9 @@ private:
         }
     };
 
-    const Block<Oriented>& block(std::size_t level, std::size_t n) const { return blocks_[first_block_[level] + n]; }
+    const NeighbourBlock<Oriented>& block(std::size_t level, std::size_t n) const {
+        return blocks_[first_block_[level] + n];
+    }
 
     /// Empties the lanes of a level's last block that hold nothing.
     void clear_rest(std::size_t level, std::size_t count) {
@@ -134,7 +136,7 @@ private:
     double direction_;
     double per_weight_;
     std::vector<std::size_t> first_block_;  ///< of each level
-    std::vector<Block<Oriented>> blocks_;
+    std::vector<NeighbourBlock<Oriented>> blocks_;
 };
 
 }  // namespace lightcuts::detail

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
+#include "../core/invalid_input.hpp"
 #include "../core/random.hpp"
 #include "cluster_tree.hpp"
 
@@ -95,6 +97,9 @@ private:
                 }
             }
             begin_.push_back(static_cast<std::uint32_t>(leaves_.size()));
+        }
+        if (leaves_.size() > std::numeric_limits<std::uint32_t>::max()) {
+            throw invalid_input("representatives: so many lights have more than 2^32 of them; ask for fewer a node");
         }
         leaves_.shrink_to_fit();
     }

@@ -18,7 +18,7 @@ namespace lightcuts::detail {
 /// has the smallest upper corner, the largest lower corner and the smallest weight. When clusters merge, the first and
 /// the last only grow and the second only shrinks, so a node stays valid for the clusters that replace its own.
 template <bool Oriented>
-struct Block {
+struct NeighbourBlock {
     static constexpr std::size_t lanes = 8;
     using Lanes = std::array<float, lanes>;
 
@@ -53,14 +53,14 @@ struct Block {
 };
 
 template <>
-struct Block<true> : Block<false> {
+struct NeighbourBlock<true> : NeighbourBlock<false> {
     std::array<Lanes, 3> axis;
     /// Sine and cosine of what to add to half the angle between axes: half a cluster's half-angle, or minus half the
     /// angle around a node's axis in which all its clusters' axes lie.
     Lanes sin, cos;
 
     void set(std::size_t j, const Cluster<true>& c, double per_weight) {
-        Block<false>::set(j, c, per_weight);
+        NeighbourBlock<false>::set(j, c, per_weight);
         const std::array<float, 3> unit = unit_axis(c);
         for (std::size_t a = 0; a < 3; ++a) axis[a][j] = unit[a];
         sin[j] = static_cast<float>(c.half.sin);
@@ -68,7 +68,7 @@ struct Block<true> : Block<false> {
     }
 
     void clear(std::size_t j) {
-        Block<false>::clear(j);
+        NeighbourBlock<false>::clear(j);
         for (Lanes& a : axis) a[j] = 0;
         sin[j] = 0;
         cos[j] = 1;
@@ -76,7 +76,7 @@ struct Block<true> : Block<false> {
 };
 
 /// Makes lane j of `parent` the node of all lanes of `child`.
-inline void enclose(const Block<false>& child, Block<false>& parent, std::size_t j) {
+inline void enclose(const NeighbourBlock<false>& child, NeighbourBlock<false>& parent, std::size_t j) {
     for (std::size_t a = 0; a < 3; ++a) {
         parent.least_hi[a][j] = *std::min_element(child.least_hi[a].begin(), child.least_hi[a].end());
         parent.most_lo[a][j] = *std::max_element(child.most_lo[a].begin(), child.most_lo[a].end());
@@ -84,8 +84,8 @@ inline void enclose(const Block<false>& child, Block<false>& parent, std::size_t
     parent.weight[j] = *std::min_element(child.weight.begin(), child.weight.end());
 }
 
-inline void enclose(const Block<true>& child, Block<true>& parent, std::size_t j) {
-    enclose(static_cast<const Block<false>&>(child), static_cast<Block<false>&>(parent), j);
+inline void enclose(const NeighbourBlock<true>& child, NeighbourBlock<true>& parent, std::size_t j) {
+    enclose(static_cast<const NeighbourBlock<false>&>(child), static_cast<NeighbourBlock<false>&>(parent), j);
     std::array<float, 3> sum{};
     for (std::size_t a = 0; a < 3; ++a) {
         for (std::size_t k = 0; k < child.lanes; ++k) sum[a] += child.axis[a][k];
@@ -114,7 +114,7 @@ inline void enclose(const Block<true>& child, Block<true>& parent, std::size_t j
 /// The cluster whose neighbours are sought, in float.
 template <bool Oriented>
 struct Probe {
-    using Lanes = typename Block<Oriented>::Lanes;
+    using Lanes = typename NeighbourBlock<Oriented>::Lanes;
 
     std::array<float, 3> lo, hi;
     float weight;
@@ -124,7 +124,7 @@ struct Probe {
     float direction2 = 0;    ///< the metric's c^2
 
     Probe(const Cluster<Oriented>& c, double direction, double per_weight)
-        : lo(c.lo), hi(c.hi), weight(Block<Oriented>::float_weight(c.weight, per_weight)) {
+        : lo(c.lo), hi(c.hi), weight(NeighbourBlock<Oriented>::float_weight(c.weight, per_weight)) {
         if constexpr (Oriented) {
             axis = unit_axis(c);
             sin = static_cast<float>(c.half.sin);
@@ -140,8 +140,8 @@ struct Probe {
     /// Lower bounds, up to a relative error below 4e-6, of the size of the union with any cluster of each lane.
     /// False if all are above `threshold`. Written without branches, and with memory that aliases nothing, so that
     /// compilers use vector instructions.
-    bool bound(const Block<Oriented>& b, float threshold, Lanes& bounds) const {
-        constexpr std::size_t lanes = Block<Oriented>::lanes;
+    bool bound(const NeighbourBlock<Oriented>& b, float threshold, Lanes& bounds) const {
+        constexpr std::size_t lanes = NeighbourBlock<Oriented>::lanes;
         const auto larger = [](float s, float t) { return s > t ? s : t; };
         const auto smaller = [](float s, float t) { return s < t ? s : t; };
         float diagonal2[lanes], weights[lanes], result[lanes];

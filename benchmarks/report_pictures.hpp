@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "report_measurement.hpp"
+
+namespace benchmark {
+
+/// For each curve, the setting whose time is closest to that of lightcuts at their usual error ratio.
+/// pre: the scene has a curve of lightcuts.
+std::vector<const Measurement*> equal_time_settings(const SceneMeasurement& scene);
+
+/// The reference and these settings as pictures within the page: what is seen, the difference from the reference
+/// sixteenfold, and where cuts are large. All pictures of a scene are exposed alike.
+std::string pictures_html(const SceneMeasurement& scene);
+
+}  // namespace benchmark

@@ -1,0 +1,135 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "descent.hpp"
+
+namespace lightcuts {
+
+/// A light drawn by stochastic descent.
+struct LightSample {
+    std::uint32_t kind = 0;    ///< tree of the forest
+    std::uint32_t leaf = 0;    ///< of that tree
+    std::uint32_t light = 0;   ///< index into that tree's lights
+    double probability = 0.0;  ///< 0: the descent ended where nothing can contribute; there is no light
+};
+
+namespace detail {
+
+inline bool any(const auto& chances) {
+    for (const double chance : chances) {
+        if (chance > 0.0) return true;
+    }
+    return false;
+}
+
+}  // namespace detail
+
+/// The light that the random number `u` in [0, 1) draws: from the roots on, a child in proportion to its importance
+/// for the receiver. Every light that can contribute, shadows apart, can be drawn, as far as the bits of `u` reach.
+/// cost: two importances a level of the tree.
+template <TreeOrForest Lights, class M, class Policy = TwoStageBounds>
+LightSample sample_light(const Lights& lights, const Receiver<M>& receiver, double u, const Policy& policy = {}) {
+    const auto& forest = as_forest(lights);
+    const auto roots = detail::chances_of(detail::root_importances(policy, receiver, forest));
+    if (!detail::any(roots)) return {};
+    const std::size_t kind = detail::choose(roots, u);
+    LightSample sample{.kind = static_cast<std::uint32_t>(kind), .probability = roots[kind]};
+    forest.visit(sample.kind, [&](const auto& tree) {
+        const ClusterTree& topology = tree.topology();
+        std::uint32_t node = topology.root();
+        while (!topology.is_leaf(node)) {
+            const auto chances = detail::chances_of(detail::child_importances(policy, receiver, tree, node));
+            if (!detail::any(chances)) {
+                sample = {};
+                return;
+            }
+            const std::size_t child = detail::choose(chances, u);
+            node = child == 0 ? topology.left(node) : topology.right(node);
+            sample.probability *= chances[child];
+        }
+        sample.leaf = node;
+        sample.light = topology.item(node);
+    });
+    return sample;
+}
+
+/// The chance that `sample_light` draws the light at `leaf` of the tree of kind `kind` for a random number. Summed over
+/// all leaves it is 1, less the chance of descents that end where nothing can contribute.
+/// pre: `leaf` is a leaf of that tree. cost: two importances a level of the tree.
+template <TreeOrForest Lights, class M, class Policy = TwoStageBounds>
+double probability_of(const Lights& lights, const Receiver<M>& receiver, std::uint32_t kind, std::uint32_t leaf,
+                      const Policy& policy = {}) {
+    const auto& forest = as_forest(lights);
+    double probability = detail::chances_of(detail::root_importances(policy, receiver, forest))[kind];
+    forest.visit(kind, [&](const auto& tree) {
+        const ClusterTree& topology = tree.topology();
+        for (std::uint32_t node = topology.root(); probability > 0.0 && !topology.is_leaf(node);) {
+            const auto chances = detail::chances_of(detail::child_importances(policy, receiver, tree, node));
+            const std::uint32_t left = topology.left(node);
+            probability *= chances[leaf <= left ? 0 : 1];
+            node = leaf <= left ? left : topology.right(node);
+        }
+    });
+    return probability;
+}
+
+/// What `leaves_of` says of a light of zero intensity, which is not in the tree.
+inline constexpr std::uint32_t no_leaf = std::numeric_limits<std::uint32_t>::max();
+
+/// The leaf of every light of a tree: for those who know a light and ask for its probability. cost: linear.
+template <Light L>
+std::vector<std::uint32_t> leaves_of(const LightTree<L>& tree) {
+    std::vector<std::uint32_t> leaves(tree.lights().size(), no_leaf);
+    for (std::uint32_t n = 0; n < tree.topology().size(); ++n) {
+        if (tree.topology().is_leaf(n)) leaves[tree.topology().item(n)] = n;
+    }
+    return leaves;
+}
+
+/// Estimates the sum over all lights from `samples` of them, drawn by stochastic descent of the trees with stratified
+/// random numbers [Shirley et al. 1996; Conty Estevez and Kulla 2018]. Unbiased.
+/// cost: up to `samples` shadow rays; two importances for each node that a descent visits, shared by all that do.
+template <class Forest, class M, class Oracle, class Policy = TwoStageBounds>
+Estimate<typename Forest::spectrum> tree_sampling(const Forest& forest, const Receiver<M>& receiver,
+                                                  const Oracle& oracle, std::uint32_t samples, std::uint64_t seed,
+                                                  EstimateScratch<typename Forest::spectrum>& scratch,
+                                                  const Policy& policy = {}) {
+    scratch.draws.clear();
+    const auto roots = detail::chances_of(detail::root_importances(policy, receiver, forest));
+    if (!detail::any(roots)) return {};
+    scratch.numbers.clear();
+    detail::add_stratified(scratch.numbers, samples,
+                           [&](std::size_t k) { return to_unit(hash_keys(seed, receiver.id, k)); });
+    std::span<double> numbers(scratch.numbers);
+    double begin = 0.0;
+    forest.for_each([&](std::uint32_t kind, const auto& tree) {
+        const double chance = roots[kind];
+        if (!(chance > 0.0)) return;
+        // Where rounding leaves something over behind the last tree, `remainder_in` brings it back.
+        bool last = true;
+        for (std::size_t k = kind + 1; k < roots.size(); ++k) last = last && !(roots[k] > 0.0);
+        const auto end = last ? numbers.end() : std::lower_bound(numbers.begin(), numbers.end(), begin + chance);
+        const std::span<double> own = numbers.first(static_cast<std::size_t>(end - numbers.begin()));
+        numbers = numbers.subspan(own.size());
+        for (double& u : own) u = detail::remainder_in(u, begin, chance);
+        begin += chance;
+        scratch.visits.push_back(
+            {tree.topology().root(), 0, static_cast<std::uint32_t>(own.size()), 1.0 / (samples * chance), chance});
+        detail::descend(tree, kind, receiver, policy, own, seed, scratch);
+    });
+    return detail::estimate_draws(forest, receiver, oracle, scratch);
+}
+
+/// The same in one call, by the lights of a tree or a forest.
+template <TreeOrForest Lights, class M, class Oracle, class Policy = TwoStageBounds>
+Estimate<forest_spectrum<Lights>> tree_sampling(const Lights& lights, const Receiver<M>& receiver, const Oracle& oracle,
+                                                std::uint32_t samples, std::uint64_t seed, const Policy& policy = {}) {
+    EstimateScratch<forest_spectrum<Lights>> scratch;
+    return tree_sampling(as_forest(lights), receiver, oracle, samples, seed, scratch, policy);
+}
+
+}  // namespace lightcuts

@@ -1,0 +1,114 @@
+#include <algorithm>
+#include <filesystem>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "render/process.hpp"
+#include "render/temporary_folder.hpp"
+
+namespace {
+
+struct ErrorVsTime : testing::Test {
+    TemporaryFolder folder;
+    TemporaryFolder streams;
+
+    Process::Result run(const std::string& arguments) {
+        std::vector<std::string> words;
+        std::istringstream text(arguments);
+        for (std::string word; text >> word;) words.push_back(word);
+        return Process(LIGHTCUTS_ERROR_VS_TIME_EXECUTABLE, words, folder.path(), streams.path()).wait();
+    }
+};
+
+const std::string lamp = "newmtl lamp\nKd 0 0 0\nKe 9 9 9\nnewmtl wall\nKd 0.5 0.5 0.5\n";
+const std::string room =
+    "mtllib room.mtl\nv -1 -1 0\nv 1 -1 0\nv 0 1 0\nv -1 2 2\nv 1 2 2\nv 0 2 1\n"
+    "usemtl wall\nf 1 2 3\nusemtl lamp\nf 4 6 5\nf 4 5 6\n";
+const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+
+TEST_F(ErrorVsTime, WritesFiguresPlotsAndPictures) {
+    const auto result = run("--scene builtin:omni?lights=64 --width 32 --height 18 --quick --svg");
+    ASSERT_EQ(result.status, 0) << result.err;
+    EXPECT_EQ(result.err, "");
+
+    const auto json = nlohmann::json::parse(folder.read("error_vs_time.json"));
+    ASSERT_EQ(json.at("scenes").size(), 1u);
+    const auto& scene = json.at("scenes")[0];
+    EXPECT_EQ(scene.at("lights"), 64);
+    EXPECT_EQ(scene.at("size"), (std::vector<int>{32, 18}));
+    EXPECT_EQ(scene.at("exhaustive").at("error").at("relative_rmse"), 0.0);
+    EXPECT_GT(scene.at("exhaustive").at("seconds"), 0.0);
+    std::size_t settings = 1;
+    for (const auto& curve : scene.at("curves")) {
+        settings += curve.at("points").size();
+        for (const auto& point : curve.at("points")) {
+            EXPECT_GT(point.at("seconds"), 0.0);
+            EXPECT_GT(point.at("shadow_rays_per_pixel"), 0.0);
+            // The last setting of every method is its finest.
+            EXPECT_GE(point.at("error").at("relative_rmse"), curve.at("points").back().at("error").at("relative_rmse"));
+        }
+    }
+    EXPECT_EQ(scene.at("equal_time").size(), 2u);  // lightcuts with 1 and with 8 representatives
+
+    const std::string csv = folder.read("error_vs_time.csv");
+    EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')), 1 + settings);
+
+    const std::string html = folder.read("error_vs_time.html");
+    for (const char* part : {"<svg", "data:image/png;base64,iVBORw0KGgo", "16 x difference", "cut size", "</html>"}) {
+        EXPECT_NE(html.find(part), std::string::npos) << part;
+    }
+    EXPECT_EQ(html.find("src=\"http"), std::string::npos);
+    const std::string svg = folder.read("error_vs_time-builtin-omni-lights-64.svg");
+    EXPECT_EQ(svg.rfind("<svg xmlns", 0), 0u);
+    EXPECT_EQ(svg.find("nan"), std::string::npos);
+}
+
+TEST_F(ErrorVsTime, UsesTheCamerasOfASceneJson) {
+    const std::string camera = R"({"eye": [0, 0, 3], "target": [0, 0, 0], "up": [0, 1, 0], "vfov_deg": 40,
+                                   "resolution": [64, 128]})";
+    folder.write("scene.json", R"({"file": "room.obj", "cameras": [)" + camera + "," + camera + "]}");
+    folder.write("room.mtl", lamp);
+    folder.write("room.obj", room);
+    const auto result = run("--scene room.obj --height 20 --runs 1 --area-points 8");
+    ASSERT_EQ(result.status, 0) << result.err;
+    const auto json = nlohmann::json::parse(folder.read("error_vs_time.json"));
+    ASSERT_EQ(json.at("scenes").size(), 2u);
+    EXPECT_EQ(json.at("scenes")[1].at("name"), "room, camera 1");
+    EXPECT_EQ(json.at("scenes")[0].at("size"), (std::vector<int>{10, 20}));
+}
+
+TEST_F(ErrorVsTime, RefusesInOneLineAndWritesNothing) {
+    folder.write("dark.obj", triangle);
+    std::filesystem::create_directory(folder.path() / "bad");
+    folder.write("bad/room.mtl", lamp);
+    folder.write("bad/room.obj", room);
+    folder.write("bad/scene.json", "{\n\"file\": \"room.obj\",\n\"cameras\": [{\"eye\": [1, 2, 3]}]}");
+    struct Refusal {
+        std::string arguments;
+        int status;
+        std::string says;
+    };
+    const std::vector<Refusal> refusals = {
+        {"--scene dark.obj", 1, "dark.obj: "},
+        {"--scene bad/room.obj", 1, "bad/scene.json: cameras[0]: 'target' is missing"},
+        {"--scene bad/room.obj --area-points 0", 1, "bad/room.obj: "},
+        {"--scene builtin:none", 1, "builtin:none"},
+        {"--output no/such/folder", 1, "no/such/folder"},
+        {"--runs 0", 2, "--runs"},
+        {"--width 0", 2, "--width"},
+        {"--unknown", 2, "--unknown"},
+    };
+    for (const Refusal& refusal : refusals) {
+        const auto result = run(refusal.arguments);
+        EXPECT_EQ(result.status, refusal.status) << refusal.arguments << ": " << result.err;
+        EXPECT_NE(result.err.find(refusal.says), std::string::npos) << refusal.arguments << ": " << result.err;
+        EXPECT_EQ(result.err.find('\n'), result.err.size() - 1) << refusal.arguments << ": " << result.err;
+        EXPECT_FALSE(folder.has("error_vs_time.html")) << refusal.arguments;
+    }
+}
+
+}  // namespace

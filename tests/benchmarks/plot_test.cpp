@@ -1,0 +1,63 @@
+#include <cmath>
+#include <limits>
+#include <regex>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <benchmarks/plot.hpp>
+
+namespace {
+
+using benchmark::Plot;
+
+struct Dot {
+    double x, y;
+};
+
+std::vector<Dot> dots(const std::string& svg) {
+    static const std::regex circle("<circle cx=\"([0-9.]+)\" cy=\"([0-9.]+)\"");
+    std::vector<Dot> result;
+    for (std::sregex_iterator it(svg.begin(), svg.end(), circle), end; it != end; ++it) {
+        result.push_back({std::stod((*it)[1]), std::stod((*it)[2])});
+    }
+    return result;
+}
+
+Plot plot(std::vector<benchmark::PlotPoint> points) {
+    return {"a < b", "seconds", "error", {{"curve", std::move(points)}}, std::nullopt, 1e-4};
+}
+
+TEST(Plot, IsLogarithmicInBothAxes) {
+    const auto at = dots(to_svg(plot({{0.1, 0.5, ""}, {1.0, 0.05, ""}, {10.0, 0.005, ""}})));
+    ASSERT_EQ(at.size(), 3u);
+    EXPECT_GT(at[1].x, at[0].x);
+    EXPECT_GT(at[1].y, at[0].y);  // pixels run downwards
+    EXPECT_NEAR(at[1].x - at[0].x, at[2].x - at[1].x, 0.21);
+    EXPECT_NEAR(at[1].y - at[0].y, at[2].y - at[1].y, 0.21);
+}
+
+TEST(Plot, TakesWhatHasNoPlaceOnPaper) {
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    const std::string svg = to_svg(plot({{1.0, 0.0, ""},
+                                         {2.0, 1e-9, ""},
+                                         {0.0, 0.1, ""},
+                                         {4.0, infinite, ""},
+                                         {4.0, std::nan(""), ""},
+                                         {8.0, 0.1, ""}}));
+    const auto at = dots(svg);
+    ASSERT_EQ(at.size(), 3u);
+    EXPECT_EQ(at[0].y, at[1].y);  // both are too small to be told apart
+    EXPECT_GT(at[0].y, at[2].y);
+    for (const char* word : {"nan", "inf"}) EXPECT_EQ(svg.find(word), std::string::npos);
+    EXPECT_EQ(to_svg(plot({})).find("nan"), std::string::npos);
+    EXPECT_EQ(to_svg(plot({{3.0, 0.1, ""}})).find("nan"), std::string::npos);
+}
+
+TEST(Plot, EscapesItsTexts) {
+    const std::string svg = to_svg(plot({{1.0, 0.1, "\"x\" & y"}}));
+    EXPECT_NE(svg.find("a &lt; b"), std::string::npos);
+    EXPECT_NE(svg.find("&quot;x&quot; &amp; y"), std::string::npos);
+}
+
+}  // namespace

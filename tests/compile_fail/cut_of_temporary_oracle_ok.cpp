@@ -1,0 +1,15 @@
+#include <vector>
+
+#include <lightcuts/lightcuts.hpp>
+
+int main() {
+    const std::vector<lightcuts::OmniLight<float>> lights(3);
+    const lightcuts::LightTree tree(lights);
+    const lightcuts::Receiver receiver(glm::vec3(1.0f), lightcuts::Lambert<float>{{0.0f, 0.0f, 1.0f}, 0.5f});
+    const float door = 0.5f;
+    const auto oracle = [door](const auto&, const auto& light) { return light.position.x < door; };
+    lightcuts::Lightcut cut(tree, receiver, oracle);
+    cut.step();
+    lightcuts::Lightcut unshadowed(tree, receiver, lightcuts::AlwaysVisible{});  // without members: kept by value
+    unshadowed.step();
+}

@@ -1,0 +1,15 @@
+// expect: a light with position() and direction() is ambiguous
+#include <vector>
+
+#include <lightcuts/lightcuts.hpp>
+
+struct Torch {
+    glm::vec3 position;
+    glm::vec3 direction;
+    float intensity;
+};
+
+int main() {
+    const std::vector<Torch> torches(3);
+    const lightcuts::LightTree tree(torches);
+}
