@@ -60,6 +60,12 @@ struct Row {
         return glm::normalize(d);
     }
 
+    float radius() const {
+        const float r = number(4);
+        if (!(r > 0.0f)) fail("the radius dx '" + std::string(fields[4]) + "' is not positive; correct it");
+        return r;
+    }
+
     glm::vec3 intensity() const {
         const glm::vec3 rgb = triple(7);
         for (int i = 0; i < 3; ++i) {
@@ -72,8 +78,8 @@ struct Row {
         return rgb;
     }
 
-    void require_empty(std::size_t first) const {
-        for (std::size_t column = first; column < first + 3; ++column) {
+    void require_empty(std::size_t first, std::size_t count = 3) const {
+        for (std::size_t column = first; column < first + count; ++column) {
             if (!fields[column].empty()) {
                 fail(std::string(columns[column]) + " must be empty for the kind '" + std::string(fields[0]) + "'");
             }
@@ -88,11 +94,14 @@ void add_light(const Row& row, Scene& lights) {
         lights.omni.push_back({row.triple(1), row.intensity()});
     } else if (kind == "oriented") {
         lights.oriented.push_back({row.triple(1), row.direction(), row.intensity()});
+    } else if (kind == "sphere") {
+        row.require_empty(5, 2);
+        lights.spheres.push_back({row.triple(1), row.radius(), row.intensity()});
     } else if (kind == "directional") {
         row.require_empty(1);
         lights.directional.push_back({row.direction(), row.intensity()});
     } else {
-        row.fail("the kind '" + std::string(kind) + "' is unknown; use omni, oriented or directional");
+        row.fail("the kind '" + std::string(kind) + "' is unknown; use omni, oriented, directional or sphere");
     }
 }
 
@@ -127,7 +136,7 @@ void add_light_table(const std::filesystem::path& path, Scene& scene) {
     if (!has_header) fail_at(path, 1, "the file is empty; begin with the header " + std::string(header));
 
     scene.dropped_lights += append(scene.omni, lights.omni) + append(scene.oriented, lights.oriented) +
-                            append(scene.directional, lights.directional);
+                            append(scene.directional, lights.directional) + append(scene.spheres, lights.spheres);
 }
 
 }  // namespace render

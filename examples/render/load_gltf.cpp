@@ -268,7 +268,7 @@ private:
             fail(name + ": its intensity is negative or not finite; correct it");
         }
         if (source.type == "point") {
-            scene_.omni.push_back({position, intensity});
+            add_point_light(source, name, position, intensity);
         } else if (source.type == "directional") {
             scene_.directional.push_back({forward(transform, name), intensity});
         } else if (source.type == "spot") {
@@ -281,6 +281,24 @@ private:
                                     {static_cast<float>(inner), static_cast<float>(outer)}});
         } else {
             fail(name + " is of the unknown type '" + source.type + "'; use point, spot or directional");
+        }
+    }
+
+    /// A point light that its author gave a size is a sphere. As all of a light, the size ignores the nodes' scale.
+    void add_point_light(const tinygltf::Light& source, const std::string& name, const glm::vec3& position,
+                         const glm::vec3& intensity) {
+        if (!source.extras.Has("radius")) {
+            scene_.omni.push_back({position, intensity});
+            return;
+        }
+        const auto radius = static_cast<float>(number(source.extras.Get("radius"), -1.0));
+        if (!(radius >= 0.0f && std::isfinite(radius))) {
+            fail(name + ": the radius in its extras is no number of at least 0; correct or remove it");
+        }
+        if (radius > 0.0f) {
+            scene_.spheres.push_back({position, radius, intensity});
+        } else {
+            scene_.omni.push_back({position, intensity});
         }
     }
 

@@ -13,6 +13,7 @@
 
 #include "emitters.hpp"
 #include "error.hpp"
+#include "indirect.hpp"
 #include "interrupt.hpp"
 #include "light_table.hpp"
 #include "load_scene.hpp"
@@ -22,8 +23,10 @@
 #include "ray_scene.hpp"
 #include "render_loop.hpp"
 #include "shader.hpp"
+#include "spheres.hpp"
 #include "statistics.hpp"
 #include "surface.hpp"
+#include "surroundings.hpp"
 #include "validate.hpp"
 #include "view.hpp"
 
@@ -84,6 +87,16 @@ Scene prepare_scene(const Options& options) {
     Scene scene = load_scene(options.scene);
     if (!options.lights.empty()) add_light_table(options.lights, scene);
     add_emitter_lights(scene, options.area_points);
+    add_sphere_lights(scene, options.area_points, options.seed);
+    if (!options.env.empty()) {
+        add_environment(scene, {options.env, options.env_lights, options.env_scale, options.env_rotate, options.seed});
+    }
+    if (options.sun_sky) {
+        const lightcuts::SunPosition sun{static_cast<double>(options.sun_sky->elevation),
+                                         static_cast<double>(options.sun_sky->azimuth),
+                                         static_cast<double>(options.turbidity)};
+        add_daylight(scene, sun, options.sky_lights, options.seed);
+    }
     require_lights(scene);
     return scene;
 }
@@ -142,7 +155,7 @@ ExitStatus render_scene(const Options& options) {
     watch_interrupt();
 
     Stopwatch watch;
-    const Scene scene = prepare_scene(options);
+    Scene scene = prepare_scene(options);
     const Camera camera = choose_camera(scene, options);
     const RayScene rays(scene);
     RunReport report(options, scene, threads);
@@ -150,10 +163,13 @@ ExitStatus render_scene(const Options& options) {
 
     Rendering rendering;
     arena.execute([&] {
+        const Shade shade = options.diffuse_materials ? Shade::diffuse : Shade::full;
+        add_virtual_lights(scene, rays, options.indirect, shade, options.seed);
+        report.seconds.particles = watch.lap();
         const auto shader = make_shader(scene, rays, options);
         report.seconds.tree = watch.lap();
         const View view(camera, options.width, options.height);
-        const SurfaceFinder surfaces(scene, rays, options.diffuse_materials ? Shade::diffuse : Shade::full);
+        const SurfaceFinder surfaces(scene, rays, shade);
         report.adaptation = options.adaptation ? *options.adaptation : measure_adaptation(view, surfaces, *shader);
         shader->adapt(report.adaptation);
         rendering = render_picture(view, surfaces, *shader, options);

@@ -21,10 +21,8 @@ constexpr long long largest_picture = 1ll << 27;  ///< pixels
 const std::vector<std::string> methods = {"exhaustive",         "lightcuts",           "ward", "power", "tree-sampling",
                                           "adaptive-splitting", "stochastic-lightcuts"};
 const std::vector<std::string> later_methods = {"multidimensional", "reconstruction", "row-column"};
-const std::vector<std::string> later_options = {"--env",      "--env-lights",  "--env-scale",  "--env-rotate",
-                                                "--sun-sky",  "--turbidity",   "--sky-lights", "--indirect",
-                                                "--clamp",    "--clamp-ratio", "--instants",   "--shutter",
-                                                "--aperture", "--focus",       "--fog"};
+const std::vector<std::string> later_options = {"--clamp-ratio", "--instants", "--shutter",
+                                                "--aperture",    "--focus",    "--fog"};
 const std::vector<std::string> builders = {"binned", "agglomerate", "longest-axis"};
 
 bool contains(const std::vector<std::string>& words, const std::string& word) {
@@ -84,6 +82,17 @@ glm::vec3 vector_of(const std::string& option, const std::string& text) {
     return v;
 }
 
+void set_sun(Options& options, const std::string& text) {
+    const std::vector<std::string> parts = split(text, ',');
+    const auto elevation = parts.size() == 2 ? to_number<float>(parts[0]) : std::nullopt;
+    const auto azimuth = parts.size() == 2 ? to_number<float>(parts[1]) : std::nullopt;
+    if (!elevation || !azimuth || *elevation < 0.0f || *elevation > 90.0f) {
+        refuse("--sun-sky", text,
+               "ELEVATION,AZIMUTH in degrees; the elevation from 0 to 90, the sky ends at the horizon");
+    }
+    options.sun_sky = {*elevation, *azimuth};
+}
+
 void set_size(Options& options, const std::string& text) {
     const std::vector<std::string> parts = split(text, 'x');
     const auto width = parts.size() == 2 ? to_number<int>(parts[0]) : std::nullopt;
@@ -126,6 +135,9 @@ void set_output(Options& options, const std::string& text) {
 }
 
 void check_together(const Options& options) {
+    if (options.indirect > 0 && options.clamp != "off") {
+        throw usage_error("--indirect: clamping, its default, comes with a later version; give --clamp off too");
+    }
     if (options.eye.has_value() != options.target.has_value()) {
         throw usage_error(std::string(options.eye ? "--eye needs --target" : "--target needs --eye") + " X,Y,Z too");
     }
@@ -182,8 +194,9 @@ Options parse_options(int argc, const char* const* argv) {
     const auto count = [&text](const std::string& name, const std::string& help, std::uint32_t lowest,
                                std::uint32_t highest, std::uint32_t& value) {
         const std::string wanted = "a whole number from " + std::to_string(lowest) + " to " + std::to_string(highest);
-        text(name, "N", help,
-             [=, &value](const std::string& s) { value = number_in<std::uint32_t>(name, s, lowest, highest, wanted); });
+        return text(name, "N", help, [=, &value](const std::string& s) {
+            value = number_in<std::uint32_t>(name, s, lowest, highest, wanted);
+        });
     };
 
     app.add_option("SCENE", options.scene, "glTF 2.0 (.gltf, .glb), OBJ, or builtin:NAME (builtin:hall)");
@@ -237,7 +250,35 @@ Options parse_options(int argc, const char* const* argv) {
         if (s.empty()) refuse("--lights", "''", "a file name");
         options.lights = s;
     });
-    count("--area-points", "lights per emissive surface (64); 0 leaves them out", 0, many, options.area_points);
+    count("--area-points", "lights per emissive surface or sphere (64); 0 leaves them out", 0, many,
+          options.area_points);
+    CLI::Option* env = text("--env", "FILE", "latitude-longitude map around the scene, .exr or .hdr",
+                            [&](const std::string& s) {
+                                if (s.empty()) refuse("--env", "''", "a file name");
+                                options.env = s;
+                            });
+    count("--env-lights", "distant lights that stand for it (3000); 0: it is only seen", 0, many, options.env_lights)
+        ->needs(env);
+    text("--env-scale", "S", "times its radiance (1)", [&](const std::string& s) {
+        options.env_scale = number_in("--env-scale", s, std::numeric_limits<float>::min(), huge, "a number above 0");
+    })->needs(env);
+    text("--env-rotate", "DEG", "counter-clockwise seen from above (0)", [&](const std::string& s) {
+        options.env_rotate = number_in("--env-rotate", s, -huge, huge, "degrees");
+    })->needs(env);
+    CLI::Option* sun_sky = text("--sun-sky", "ELEVATION,AZIMUTH", "sun and clear sky; degrees, azimuth from +z to +x",
+                                [&](const std::string& s) { set_sun(options, s); });
+    text("--turbidity", "T", "haze of the sky, 2 (very clear) to 10 (3)", [&](const std::string& s) {
+        options.turbidity = number_in("--turbidity", s, 2.0f, 10.0f, "a number from 2 to 10");
+    })->needs(sun_sky);
+    count("--sky-lights", "distant lights that stand for the sky (5000); 0: it is only seen", 0, many,
+          options.sky_lights)
+        ->needs(sun_sky);
+    count("--indirect", "about so many virtual lights for indirect light (0)", 0, many, options.indirect);
+    text("--clamp", "off", "limit of what a virtual light adds at a point; --indirect needs off",
+         [&](const std::string& s) {
+             if (s != "off") throw usage_error("--clamp " + s + ": comes with a later version; give --clamp off");
+             options.clamp = s;
+         });
     text("--materials", "full|diffuse", "diffuse: Lambert with the base colour everywhere (full)",
          [&](const std::string& s) {
              if (s != "full" && s != "diffuse") refuse("--materials", s, "full or diffuse");

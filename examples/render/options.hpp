@@ -17,6 +17,12 @@ public:
     using std::runtime_error::runtime_error;
 };
 
+/// Degrees. `azimuth`: from +z towards +x.
+struct SunPosition {
+    float elevation = 0;
+    float azimuth = 0;
+};
+
 /// The renderer's command line with its defaults.
 struct Options {
     enum class Action { render, help, version, list_scenes };
@@ -47,7 +53,16 @@ struct Options {
     std::string builder = "binned";  ///< binned, agglomerate or longest-axis
 
     std::filesystem::path lights;     ///< CSV with more lights; empty: none
-    std::uint32_t area_points = 64;   ///< lights per emissive surface; 0: none
+    std::uint32_t area_points = 64;   ///< lights per emissive surface or sphere; 0: none
+    std::filesystem::path env;        ///< latitude-longitude map around the scene; empty: none
+    std::uint32_t env_lights = 3000;  ///< that stand for it; 0: it is only seen
+    float env_scale = 1.0f;           ///< of its radiance
+    float env_rotate = 0.0f;          ///< degrees, counter-clockwise about +y seen from above
+    std::optional<SunPosition> sun_sky;
+    float turbidity = 3.0f;
+    std::uint32_t sky_lights = 5000;  ///< that stand for the sky; 0: it is only seen
+    std::uint32_t indirect = 0;       ///< about so many virtual lights; 0: direct light only
+    std::string clamp = "auto";       ///< of virtual lights; only `off` is there yet
     bool diffuse_materials = false;   ///< everything is Lambert with its base colour
     std::filesystem::path reference;  ///< picture to compare with; empty: none
     std::vector<std::string> aovs;    ///< further layers, each of `aov_names()`

@@ -12,6 +12,9 @@
 #include <lightcuts/light/omni.hpp>
 #include <lightcuts/light/oriented.hpp>
 #include <lightcuts/light/spot.hpp>
+#include <lightcuts/source/sphere.hpp>
+
+#include "background.hpp"
 
 namespace render {
 
@@ -76,6 +79,9 @@ struct Camera {
     float vertical_fov = 45.0f;  ///< degrees
 };
 
+/// Light that a small piece of surface reflects diffusely: a kind of its own, so that it gets a tree of its own.
+struct VirtualLight : lightcuts::OrientedPointLight<> {};
+
 /// A triangle mesh with everything that lights it and looks at it. Per-vertex arrays have one entry a position, or
 /// none at all: a scene without uvs has no uv array.
 struct Scene {
@@ -93,6 +99,14 @@ struct Scene {
     std::vector<lightcuts::OrientedPointLight<>> oriented;
     std::vector<lightcuts::SpotLight<>> spots;
     std::vector<lightcuts::DistantLight<>> directional;
+    std::vector<lightcuts::SphereLight<>> spheres;
+    std::vector<lightcuts::SpherePointLight<>> sphere_points;  ///< in `spheres`
+    std::vector<VirtualLight> virtual_lights;
+    std::size_t environment_lights = 0;  ///< of `directional`: those of the environment map
+    std::size_t sun_lights = 0;          ///< likewise
+    std::size_t sky_lights = 0;
+
+    Background background;
 
     std::size_t dropped_triangles = 0;  ///< of zero area, left out when the scene was checked
     std::size_t dropped_lights = 0;     ///< of zero intensity, left out likewise

@@ -1,20 +1,13 @@
 #include "scene_lights.hpp"
 
-#include <tbb/parallel_for.h>
-
 #include <lightcuts/tree/agglomerate.hpp>
 #include <lightcuts/tree/longest_axis.hpp>
+
+#include "tbb_executor.hpp"
 
 namespace render {
 
 namespace {
-
-struct TbbExecutor {
-    template <class Task>
-    void operator()(std::size_t count, Task&& task) const {
-        tbb::parallel_for(std::size_t{0}, count, task);
-    }
-};
 
 template <class L, class Builder>
 lightcuts::LightTree<L> tree_with(const std::vector<L>& lights, const Options& options, const Builder& builder) {
@@ -40,6 +33,7 @@ lightcuts::LightTree<L> make_tree(const std::vector<L>& lights, const Options& o
 
 SceneLights::SceneLights(const Scene& scene, const Options& options)
     : omni_(make_tree(scene.omni, options)), oriented_(make_tree(scene.oriented, options)),
-      spots_(make_tree(scene.spots, options)), directional_(make_tree(scene.directional, options)) {}
+      spots_(make_tree(scene.spots, options)), directional_(make_tree(scene.directional, options)),
+      spheres_(make_tree(scene.sphere_points, options)), virtual_(make_tree(scene.virtual_lights, options)) {}
 
 }  // namespace render

@@ -4,7 +4,6 @@
 #include <optional>
 #include <span>
 
-#include <lightcuts/adapt/embree.hpp>
 #include <lightcuts/cut/lightcut.hpp>
 #include <lightcuts/estimate/adaptive_splitting.hpp>
 #include <lightcuts/estimate/exhaustive.hpp>
@@ -13,6 +12,7 @@
 #include <lightcuts/estimate/tree_sampling.hpp>
 #include <lightcuts/estimate/ward.hpp>
 
+#include "oracle.hpp"
 #include "scene_lights.hpp"
 #include "surface_material.hpp"
 
@@ -23,42 +23,16 @@ namespace {
 using Forest = SceneLights::Forest;
 using Receiver = lightcuts::Receiver<SurfaceMaterial>;
 
-/// Visibility through surfaces that let light pass, as a share of its luminance.
-class TransmissiveOracle {
-public:
-    explicit TransmissiveOracle(const RayScene& rays) : rays_(rays) {}
-
-    template <class R, lightcuts::Light L>
-    float operator()(const R& receiver, const L& light) const {
-        const glm::vec3 place = lightcuts::place_of(light);
-        return lightcuts::DirectionalLight<L> ? rays_.to_infinity(receiver.shadow_origin, place)
-                                              : rays_.to_point(receiver.shadow_origin, place);
-    }
-
-private:
-    const RayScene& rays_;
-};
-
 Receiver receiver_of(const SurfacePoint& p) {
     // Random choices differ between pixels, eye rays and the points of one eye ray.
     const std::uint64_t name = lightcuts::hash_keys(p.pixel, p.sample, p.vertex);
     return {p.position, SurfaceMaterial(p), p.ray_origin, static_cast<std::uint32_t>(name)};
 }
 
-/// Calls `f(oracle)` with the scene's visibility: plain Embree rays where all surfaces are opaque.
-template <class F>
-void with_oracle(const RayScene& rays, F&& f) {
-    if (rays.transmissive()) {
-        f(TransmissiveOracle(rays));
-    } else {
-        f(lightcuts::EmbreeOracle(rays.embree_scene(), 1.0f - RayScene::shadow_ray_end));
-    }
-}
-
 class LightcutShader final : public Shader {
 public:
     LightcutShader(const Scene& scene, const RayScene& rays, const Options& options)
-        : rays_(rays), lights_(scene, options) {
+        : scene_(scene), rays_(rays), lights_(scene, options) {
         cut_.error_ratio = options.error_ratio;
         cut_.max_cut = options.max_cut;
         cut_.adaptation = options.adaptation.value_or(0.0f);
@@ -71,7 +45,7 @@ public:
 
     void shade(std::span<const SurfacePoint> points, std::span<Shading> out, Scratch& scratch) const override {
         auto& own = static_cast<CutScratch&>(scratch);
-        with_oracle(rays_, [&](const auto& oracle) {
+        with_oracle(scene_, rays_, [&](const auto& oracle) {
             // Long streams of shadow rays against short-lived data: some 64 receivers at once are enough.
             for (std::size_t begin = 0; begin < points.size(); begin += group) {
                 const std::size_t count = std::min(group, points.size() - begin);
@@ -99,6 +73,7 @@ private:
                 result.stop == lightcuts::StopReason::limit};
     }
 
+    const Scene& scene_;
     const RayScene& rays_;
     SceneLights lights_;
     lightcuts::LightcutOptions cut_;
@@ -109,13 +84,13 @@ template <class Method>
 class EstimateShader final : public Shader {
 public:
     EstimateShader(const Scene& scene, const RayScene& rays, const Options& options)
-        : rays_(rays), lights_(scene, options), method_(lights_.forest(), options) {}
+        : scene_(scene), rays_(rays), lights_(scene, options), method_(lights_.forest(), options) {}
 
     std::unique_ptr<Scratch> make_scratch() const override { return std::make_unique<LightScratch>(); }
 
     void shade(std::span<const SurfacePoint> points, std::span<Shading> out, Scratch& scratch) const override {
         auto& own = static_cast<LightScratch&>(scratch).lights;
-        with_oracle(rays_, [&](const auto& oracle) {
+        with_oracle(scene_, rays_, [&](const auto& oracle) {
             for (std::size_t i = 0; i < points.size(); ++i) {
                 const Receiver receiver = receiver_of(points[i]);
                 const auto estimate = method_(lights_.forest(), receiver, oracle, own);
@@ -129,6 +104,7 @@ private:
         lightcuts::EstimateScratch<glm::vec3> lights;
     };
 
+    const Scene& scene_;
     const RayScene& rays_;
     SceneLights lights_;
     Method method_;

@@ -48,6 +48,16 @@ Json options_json(const RunReport& report) {
     json["builder"] = o.builder;
     json["lights"] = path_or_null(o.lights);
     json["area_points"] = o.area_points;
+    json["env"] = path_or_null(o.env);
+    json["env_lights"] = o.env_lights;
+    json["env_scale"] = as_written(o.env_scale);
+    json["env_rotate"] = as_written(o.env_rotate);
+    json["sun_sky"] = o.sun_sky ? Json{as_written(o.sun_sky->elevation), as_written(o.sun_sky->azimuth)}
+                                : Json(nullptr);
+    json["turbidity"] = as_written(o.turbidity);
+    json["sky_lights"] = o.sky_lights;
+    json["indirect"] = o.indirect;
+    json["clamp"] = o.clamp;
     json["materials"] = o.diffuse_materials ? "diffuse" : "full";
     json["reference"] = path_or_null(o.reference);
     json["aov"] = o.aovs;
@@ -91,11 +101,21 @@ Json to_json(const RunReport& report) {
     json["threads"] = report.threads;
     json["interrupted"] = report.interrupted;
     json["triangles"] = scene.triangles.size();
+    const std::size_t of_file = scene.directional.size() - scene.environment_lights - scene.sun_lights -
+                                scene.sky_lights;
     json["lights"] = {{"omni", scene.omni.size()},
                       {"oriented", scene.oriented.size()},
                       {"spot", scene.spots.size()},
-                      {"directional", scene.directional.size()}};
-    json["seconds"] = {{"load", report.seconds.load}, {"tree", report.seconds.tree}, {"render", report.seconds.render}};
+                      {"directional", of_file},
+                      {"sphere", scene.sphere_points.size()},
+                      {"environment", scene.environment_lights},
+                      {"sun", scene.sun_lights},
+                      {"sky", scene.sky_lights},
+                      {"virtual", scene.virtual_lights.size()}};
+    json["seconds"] = {{"load", report.seconds.load},
+                       {"particles", report.seconds.particles},
+                       {"tree", report.seconds.tree},
+                       {"render", report.seconds.render}};
     json["shadow_rays"] = s.shadow_rays;
     json["shadow_rays_per_pixel"] = per(static_cast<double>(s.shadow_rays), s.pixels);
     json["cut_size"] = {
@@ -114,7 +134,9 @@ std::string summary(const RunReport& report) {
     std::ostringstream text;
     text << std::setprecision(3);
     text << report.options.scene << ": " << scene.triangles.size() << " triangles, "
-         << scene.omni.size() + scene.oriented.size() + scene.spots.size() + scene.directional.size() << " lights\n";
+         << scene.omni.size() + scene.oriented.size() + scene.spots.size() + scene.directional.size() +
+                scene.sphere_points.size() + scene.virtual_lights.size()
+         << " lights\n";
     text << report.options.method << ": " << report.seconds.load << " s loading, " << report.seconds.tree
          << " s trees, " << report.seconds.render << " s rendering, "
          << per(static_cast<double>(s.shadow_rays), s.pixels) << " shadow rays a pixel, cut size "

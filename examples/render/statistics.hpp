@@ -15,9 +15,10 @@ namespace render {
 
 /// Seconds of wall time.
 struct PhaseTimes {
-    double load = 0;    ///< reading the scene and preparing the ray tracer
-    double tree = 0;    ///< what the method builds before it shades
-    double render = 0;  ///< eye rays and shading
+    double load = 0;       ///< reading the scene and preparing the ray tracer
+    double particles = 0;  ///< following them, for indirect light
+    double tree = 0;       ///< what the method builds before it shades
+    double render = 0;     ///< eye rays and shading
 };
 
 /// Everything that is reported of a run.

@@ -7,40 +7,31 @@
 
 #include "ray_scene.hpp"
 #include "scene.hpp"
+#include "surface_lobes.hpp"
 #include "view.hpp"
 
 namespace render {
 
 /// A point to be shaded: a receiver of light, with what reflects it there.
-struct SurfacePoint {
-    /// The reflecting lobe besides Lambert's diffuse/pi. `phong`: specular (e+2)/(2 pi) cos^e about the mirror
-    /// direction. `microfacet`: height-correlated GGX with Schlick's Fresnel term.
-    enum class Model : std::uint8_t { lambert, phong, microfacet };
-
+struct SurfacePoint : SurfaceLobes {
     glm::vec3 position{0.0f};
     glm::vec3 ray_origin{0.0f};        ///< where shadow rays start: off the surface along `geometric_normal`
     glm::vec3 geometric_normal{0.0f};  ///< unit, towards the viewer
     glm::vec3 shading_normal{0.0f};    ///< unit, towards the viewer, above the surface
     glm::vec3 to_viewer{0.0f};         ///< unit
-    glm::vec3 diffuse{0.0f};           ///< albedo of the Lambert part
-    glm::vec3 specular{0.0f};          ///< phong: Ks; microfacet: reflectance at normal incidence (F0)
-    float shininess = 0;               ///< phong: exponent e; microfacet: alpha = roughness^2
     float distance = 0;                ///< travelled from the eye to here
     glm::vec3 weight{1.0f};            ///< share of this point's radiance in its eye ray's
     std::uint32_t pixel = 0;           ///< y * width + x
     std::uint32_t sample = 0;          ///< eye ray within the pixel
     std::uint32_t vertex = 0;          ///< point of the eye ray: 0, and more behind mirrors, glass and leaves
-    Model model = Model::lambert;
 };
 
 /// What an eye ray met besides points to be shaded.
 struct EyeRaySeen {
-    glm::vec3 emitted{0.0f};  ///< radiance of the emitters in sight, also in mirrors and through glass
+    glm::vec3 emitted{0.0f};  ///< radiance of emitters and background in sight, also in mirrors and through glass
     float depth = 0;          ///< distance to the first surface; infinite where there is none
     glm::vec3 normal{0.0f};   ///< shading normal of the first surface; 0 where there is none
 };
-
-enum class Shade { full, diffuse };  ///< `diffuse`: everything is Lambert with its base colour, glass too
 
 /// Finds the points that eye rays see: directly, through masks and leaves, in mirrors and through glass.
 /// threads: `follow` may run at once for different rays.

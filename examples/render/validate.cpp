@@ -130,6 +130,12 @@ struct Checker {
             if (!is_finite(light.position))
                 return "the position " + text(light.position) + " is not finite; correct it";
         }
+        if constexpr (requires { light.radius; }) {
+            if (!is_finite(light.centre)) return "the centre " + text(light.centre) + " is not finite; correct it";
+            if (!(light.radius > 0.0f && std::isfinite(light.radius))) {
+                return "the radius " + text(light.radius) + " is not positive and finite; correct it";
+            }
+        }
         if constexpr (requires { light.axis; }) return axis_problem(light.axis);
         if constexpr (requires { light.direction; }) return axis_problem(light.direction);
         return {};
@@ -181,6 +187,7 @@ void validate(Scene& scene) {
     check.lights(scene.oriented, "oriented");
     check.lights(scene.spots, "spot");
     check.lights(scene.directional, "directional");
+    check.lights(scene.spheres, "spherical");
     if (std::none_of(scene.triangles.begin(), scene.triangles.end(),
                      [&](glm::uvec3 corner) { return has_area(scene, corner); })) {
         check.fail("every triangle has zero area; there is nothing to render");
@@ -188,16 +195,17 @@ void validate(Scene& scene) {
 
     drop_flat_triangles(scene);
     scene.dropped_lights += drop_dark(scene.omni) + drop_dark(scene.oriented) + drop_dark(scene.spots) +
-                            drop_dark(scene.directional);
+                            drop_dark(scene.directional) + drop_dark(scene.spheres);
 }
 
 void require_lights(const Scene& scene) {
     const bool none = scene.omni.empty() && scene.oriented.empty() && scene.spots.empty() &&
-                      scene.directional.empty() && scene.dropped_lights == 0;
+                      scene.directional.empty() && scene.sphere_points.empty() && scene.dropped_lights == 0;
     if (none) {
-        throw lightcuts::invalid_input(scene.name +
-                                       ": the scene has no lights; add some with --lights, or raise --area-points if "
-                                       "it has emissive surfaces");
+        throw lightcuts::invalid_input(
+            scene.name +
+            ": the scene has no lights; add some with --lights, --env or --sun-sky, or raise --area-points if "
+            "it has emissive surfaces");
     }
 }
 

@@ -42,7 +42,8 @@ struct LightTable : testing::Test {
 TEST_F(LightTable, ReadsAllKinds) {
     const Scene s = read(std::string(header) +
                          "omni,1,2,3,,,,4,5,6\noriented, 1 ,2,3,0,0,-2,1,1,1\r\n\n"
-                         "directional,,,,0,-3,0,+2,2e0,2\nomni,0,0,0,,,,0,0,0");
+                         "directional,,,,0,-3,0,+2,2e0,2\nomni,0,0,0,,,,0,0,0\n"
+                         "sphere,1,2,3,0.5,,,4,5,6");
     ASSERT_EQ(s.omni.size(), 1u);
     EXPECT_EQ(s.omni[0].position, glm::vec3(1, 2, 3));
     EXPECT_EQ(s.omni[0].intensity, glm::vec3(4, 5, 6));
@@ -51,6 +52,10 @@ TEST_F(LightTable, ReadsAllKinds) {
     ASSERT_EQ(s.directional.size(), 1u);
     EXPECT_EQ(s.directional[0].direction, glm::vec3(0, -1, 0));
     EXPECT_EQ(s.directional[0].intensity, glm::vec3(2, 2, 2));
+    ASSERT_EQ(s.spheres.size(), 1u);
+    EXPECT_EQ(s.spheres[0].centre, glm::vec3(1, 2, 3));
+    EXPECT_EQ(s.spheres[0].radius, 0.5f);
+    EXPECT_EQ(s.spheres[0].intensity, glm::vec3(4, 5, 6));
     EXPECT_EQ(s.dropped_lights, 1u);
 }
 
@@ -67,6 +72,9 @@ TEST_F(LightTable, ErrorsNameTheLine) {
     EXPECT_THAT(refused("omni,0,0,0,,,,1,1,-1\n"), StartsWith("2: b '-1'"));
     EXPECT_THAT(refused("omni,0,0,0,1,,,1,1,1\n"), StartsWith("2: dx must be empty"));
     EXPECT_THAT(refused("directional,1,,,0,1,0,1,1,1\n"), StartsWith("2: x must be empty"));
+    EXPECT_THAT(refused("sphere,0,0,0,1,,1,1,1,1\n"), StartsWith("2: dz must be empty"));
+    EXPECT_THAT(refused("sphere,0,0,0,,,,1,1,1\n"), StartsWith("2: dx is missing"));
+    EXPECT_THAT(refused("sphere,0,0,0,0,,,1,1,1\n"), StartsWith("2: the radius dx '0'"));
     EXPECT_THAT(refused("oriented,0,0,0,0,0,0,1,1,1\n"), HasSubstr("zero length"));
     EXPECT_THAT(refused("directional,,,,0,0,0,1,1,1\n"), HasSubstr("zero length"));
 }

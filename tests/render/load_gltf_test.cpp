@@ -159,6 +159,22 @@ TEST_F(GltfFile, PunctualLights) {
     expect_near(s.directional[0].direction, {0, -1, 0}, 1e-5f);
 }
 
+TEST_F(GltfFile, PointLightsWithARadiusAreSpheres) {
+    const Scene s = load(R"("extensionsUsed":["KHR_lights_punctual"],"extensions":{"KHR_lights_punctual":{"lights":[
+        {"type":"point","intensity":8,"extras":{"radius":0.25}},
+        {"type":"point","intensity":2,"extras":{"radius":0,"colour":"red"}},
+        {"type":"spot","intensity":3,"spot":{"outerConeAngle":0.6},"extras":{"radius":0.25}}]}},
+        "scenes":[{"nodes":[0,1,2,3]}],"nodes":[{"mesh":0},
+        {"translation":[1,2,3],"scale":[5,5,5],"extensions":{"KHR_lights_punctual":{"light":0}}},
+        {"extensions":{"KHR_lights_punctual":{"light":1}}},{"extensions":{"KHR_lights_punctual":{"light":2}}}])");
+    ASSERT_EQ(s.spheres.size(), 1u);
+    expect_near(s.spheres[0].centre, {1, 2, 3});
+    EXPECT_EQ(s.spheres[0].radius, 0.25f);
+    expect_near(s.spheres[0].intensity, {8, 8, 8});
+    EXPECT_EQ(s.omni.size(), 1u);
+    EXPECT_EQ(s.spots.size(), 1u);
+}
+
 TEST_F(GltfFile, Materials) {
     folder.write("t.bmp", bitmap({{188, 0, 255}, {0, 128, 255}}));
     const Scene s = load(R"("images":[{"uri":"t.bmp"}],"textures":[{"source":0,"sampler":0}],
@@ -321,6 +337,12 @@ TEST_F(GltfFile, BadContents) {
         R"("extensions":{"KHR_lights_punctual":{"lights":[{"name":"L","type":"point","intensity":-1}]}},
         "nodes":[{"mesh":0},{"extensions":{"KHR_lights_punctual":{"light":0}}}])";
     EXPECT_THAT(refused(light), HasSubstr("'L'"));
+    for (const char* radius : {"-1", "\"big\"", "1e60"}) {
+        const std::string sphere =
+            R"("extensions":{"KHR_lights_punctual":{"lights":[{"name":"S","type":"point","extras":{"radius":)" +
+            std::string(radius) + R"(}}]}},"nodes":[{"mesh":0},{"extensions":{"KHR_lights_punctual":{"light":0}}}])";
+        EXPECT_THAT(refused(sphere), HasSubstr("'S': the radius"));
+    }
 }
 
 TEST_F(GltfFile, BadNumbers) {

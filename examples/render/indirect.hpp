@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "ray_scene.hpp"
+#include "scene.hpp"
+#include "surface_lobes.hpp"
+
+namespace render {
+
+/// Fills `scene.virtual_lights`: about `count` lights that stand for all light which surfaces reflect diffusely, after
+/// any number of bounces, from all other lights of the scene. 0: none. `rays`: of `scene`.
+/// throws: invalid_input naming the scene if all particles from its lights miss it, or none is reflected diffusely.
+/// threads: those of the calling task arena; the lights do not depend on them.
+void add_virtual_lights(Scene& scene, const RayScene& rays, std::size_t count, Shade shade, std::uint64_t seed);
+
+}  // namespace render

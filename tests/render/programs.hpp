@@ -1,0 +1,74 @@
+#pragma once
+
+#include <filesystem>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "process.hpp"
+#include "temporary_folder.hpp"
+
+/// A folder with a small scene, in which the programs run. Their streams are caught in another.
+class Programs : public ::testing::Test {
+protected:
+    TemporaryFolder folder;
+    TemporaryFolder streams;
+
+    void SetUp() override {
+        folder.write("room.mtl",
+                     "newmtl grey\nKd 0.5 0.4 0.3\n"
+                     "newmtl lamp\nKd 0 0 0\nKe 20 20 10\n");
+        // A floor of 8 x 8 under a block, with a lamp of 1 x 1 that faces down.
+        folder.write("room.obj",
+                     "mtllib room.mtl\n"
+                     "v -4 0 -4\nv 4 0 -4\nv 4 0 4\nv -4 0 4\n"
+                     "v -1 1 -1\nv 1 1 -1\nv 1 1 1\nv -1 1 1\n"
+                     "v -0.5 3 -0.5\nv 0.5 3 -0.5\nv 0.5 3 0.5\nv -0.5 3 0.5\n"
+                     "usemtl grey\nf 4 3 2 1\nf 8 7 6 5\n"
+                     "usemtl lamp\nf 9 10 11 12\n");
+        folder.write("floor.mtl", "newmtl grey\nKd 0.5 0.4 0.3\n");
+        folder.write("floor.obj", "mtllib floor.mtl\nv -4 0 -4\nv 4 0 -4\nv 4 0 4\nv -4 0 4\nusemtl grey\nf 4 3 2 1\n");
+        folder.write("one.csv", "kind,x,y,z,dx,dy,dz,r,g,b\nomni,0.5,2,-0.25,,,,3,2,1\n");
+        folder.write("dark.csv", "kind,x,y,z,dx,dy,dz,r,g,b\nomni,0.5,2,-0.25,,,,0,0,0\n");
+    }
+
+    Process::Result render(const std::string& arguments) { return run(LIGHTCUTS_RENDER_EXECUTABLE, arguments); }
+    Process::Result compare(const std::string& arguments) { return run(LIGHTCUTS_COMPARE_EXECUTABLE, arguments); }
+
+    Process::Result run(const std::string& program, const std::string& arguments) {
+        return Process(program, words(arguments), folder.path(), streams.path()).wait();
+    }
+
+    static std::vector<std::string> words(const std::string& text) {
+        std::vector<std::string> found;
+        std::istringstream stream(text);
+        for (std::string word; stream >> word;) found.push_back(word);
+        return found;
+    }
+
+    std::set<std::string> files() const {
+        std::set<std::string> names;
+        for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+            names.insert(entry.path().filename().string());
+        }
+        return names;
+    }
+
+    nlohmann::json report(const std::string& name) const { return nlohmann::json::parse(folder.read(name)); }
+};
+
+/// A camera for the scenes above.
+inline const std::string view = " --eye 1,5,7 --target 0,0.5,0 ";
+
+inline bool is_one_line(const std::string& text) { return text.size() > 1 && text.find('\n') == text.size() - 1; }
+
+/// What must be refused: arguments, exit status, and a part of the message that says where or what.
+struct Refusal {
+    const char* arguments;
+    int status;
+    const char* says;
+};
