@@ -54,9 +54,10 @@ TEST(DirectionCaps, HoldTheBoxesAndTheirEdgesNearlyTouchAVertex) {
             EXPECT_LE(widest, angle);
             const double length = glm::length(r.boxes[i].hi - r.boxes[i].lo) /
                                   glm::length(r.boxes[i].hi + r.boxes[i].lo);
-            // Long needles that point at the receiver lose more.
+            // A needle that points at the receiver loses the root of the 4.6e-6 by which roundings are covered, over
+            // the distance of its near end.
             if (length > 0.5) continue;
-            EXPECT_NEAR(widest, angle, 4e-3 * length + 1e-5);
+            EXPECT_NEAR(widest, angle, 5e-3 * length + 1e-5);
         }
     }
     EXPECT_GT(narrow, 40000);

@@ -9,7 +9,7 @@
 namespace lightcuts::detail {
 
 /// For each box of a block a cone about the direction of its centre that holds the directions of all its points, as
-/// rounded to float. Wider than the smallest by 1e-5 radians at most, and by 4e-3 of the box's diagonal over its
+/// rounded to float. Wider than the smallest by 1e-5 radians at most, and by 5e-3 of the box's diagonal over its
 /// distance: so much a needle that points at the receiver loses in float, and more where it is nearer than its length.
 struct DirectionCaps {
     alignas(32) Lanes centre[3];  ///< unit vectors

@@ -19,7 +19,7 @@ namespace detail {
 inline std::size_t facing_of(const glm::dvec3& normal) {
     const glm::dvec3 size = glm::abs(normal);
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    return static_cast<std::size_t>(2 * axis + (normal[axis] < 0.0 ? 1 : 0));
+    return 2 * static_cast<std::size_t>(axis) + (normal[axis] < 0.0 ? 1u : 0u);
 }
 
 /// Not unit, away from the side that shines.
