@@ -45,6 +45,41 @@ TEST(Shade, OfALongRowOfLightsIsThatOfALine) {
     EXPECT_LT(result.cut_size, 4000u);
 }
 
+/// Expects what a material is promised, and counts.
+struct Expectant {
+    std::size_t* calls;
+
+    float evaluate(const V& to_light) const {
+        ++*calls;
+        EXPECT_NEAR(glm::length(to_light), 1.0f, 1e-6f);
+        return 1.0f;
+    }
+    float upper_bound(const OffsetBox&) const { return 1.0f; }
+};
+
+// Lights at the receiver, and where the squares of floats are no numbers.
+TEST(Shade, GivesMaterialsUnitVectorsOnly) {
+    std::vector<OmniLight<float>> lights;
+    for (const float x : {0.0f, 1e-30f, 1e-12f, 1.0f, 1e12f, 3e19f, 1e38f}) lights.push_back({{x, 0.0f, x}, 1.0f, {}});
+    const LightTree tree(lights);
+    std::size_t calls = 0;
+    const Receiver receiver(V(0.0f), Expectant{&calls});
+    EXPECT_GT(shade(tree, receiver, AlwaysVisible{}, {.error_ratio = 0.0f, .max_cut = 0}).radiance, 0.0f);
+    EXPECT_GT(exhaustive(tree, receiver).radiance, 0.0f);
+    EXPECT_GT(calls, 0u);
+}
+
+TEST(Shade, EvaluatesAMaterialOnceALight) {
+    const std::vector<OmniLight<float>> one(1, {{0.0f, 0.0f, 1.0f}, 1.0f, {}});
+    const LightTree tree(one);
+    std::size_t calls = 0;
+    const Receiver receiver(V(0.0f), Expectant{&calls});
+    shade(tree, receiver);
+    EXPECT_EQ(calls, 1u);
+    exhaustive(tree, receiver);
+    EXPECT_EQ(calls, 2u);
+}
+
 TEST(Shade, OfSeveralTreesIsTheSumOverThem) {
     Room<V> room(1);
     const auto omni = room.omni(50);

@@ -86,6 +86,16 @@ TEST(Refinement, OneAtATimeIsTheOrderOfAHeap) {
     }
 }
 
+TEST(Refinement, OfAFractionAboveOneIsOneAtATime) {
+    Toy one, more;
+    Refinement<ToyNode> a, b;
+    a.run(one, {.round_fraction = 1.0});
+    b.run(more, {.round_fraction = 1.5});
+    EXPECT_EQ(more.splits, one.splits);
+    EXPECT_EQ(cut_of(b), cut_of(a));
+    EXPECT_GT(b.size(), 1u);
+}
+
 // Without a limit the cut is the set of nodes where the priority first falls to the threshold, whatever the rounds.
 TEST(Refinement, OfAnyRoundsEndsAtTheSameCut) {
     Toy one;

@@ -2,7 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <lightcuts/estimate/adaptive_splitting.hpp>
 #include <lightcuts/estimate/exhaustive.hpp>
+#include <lightcuts/estimate/power.hpp>
+#include <lightcuts/estimate/stochastic_lightcuts.hpp>
+#include <lightcuts/estimate/tree_sampling.hpp>
+#include <lightcuts/estimate/ward.hpp>
 #include "support/scene.hpp"
 
 namespace lightcuts::test {
@@ -67,6 +72,23 @@ TEST(Exhaustive, OfManyEqualLightsDoesNotDrift) {
     const auto result = exhaustive(LightForest(tree), Receiver(V(0.0f), Lambert<float>{{0.0f, 0.0f, 1.0f}, 1.0f}),
                                    AlwaysVisible{}, scratch);
     EXPECT_NEAR(result.radiance, 1e5f * 0.31830988f, 1e-6f * 1e5f);
+}
+
+TEST(Exhaustive, TakesATreeAndAsksNothingOfWhatIsAlwaysVisible) {
+    Room<V> room(3);
+    const auto omni = room.omni(50);
+    const LightTree tree(omni);
+    EstimateScratch<V> scratch;
+    for (const auto& receiver : room.diffuse_receivers(5)) {
+        const auto result = exhaustive(tree, receiver, AlwaysVisible{}, scratch);
+        EXPECT_EQ(result.queries, 0u);
+        EXPECT_EQ(result.radiance, exhaustive(LightForest(tree), receiver).radiance);
+        EXPECT_EQ(ward(tree, receiver, AlwaysVisible{}, 0.1f, scratch).queries, 0u);
+        EXPECT_EQ(power_sampling(tree, PowerDistribution(tree), receiver, AlwaysVisible{}, 16, 1, scratch).queries, 0u);
+        EXPECT_EQ(tree_sampling(tree, receiver, AlwaysVisible{}, 16, 1, scratch).queries, 0u);
+        EXPECT_EQ(adaptive_splitting(tree, receiver, AlwaysVisible{}, 0.1f, 16, 1, scratch).queries, 0u);
+        EXPECT_EQ(stochastic_lightcuts(tree, receiver, AlwaysVisible{}, 16, 1, scratch).queries, 0u);
+    }
 }
 
 }  // namespace

@@ -18,6 +18,7 @@
 #include <lightcuts/estimate/ward.hpp>
 #include <lightcuts/tree/agglomerate.hpp>
 #include <lightcuts/tree/divide.hpp>
+#include "support/cut_results.hpp"
 #include "support/scene.hpp"
 #include "support/threads.hpp"
 #include "tree/item_sets.hpp"
@@ -50,17 +51,6 @@ struct Scene {
 
     explicit Scene(std::uint64_t seed) : room(seed) {}
 };
-
-void expect_same(const std::vector<CutResult<V>>& a, const std::vector<CutResult<V>>& b) {
-    ASSERT_EQ(a.size(), b.size());
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        EXPECT_EQ(a[i].radiance, b[i].radiance) << i;
-        EXPECT_EQ(a[i].error_bound, b[i].error_bound) << i;
-        EXPECT_EQ(a[i].cut_size, b[i].cut_size) << i;
-        EXPECT_EQ(a[i].queries, b[i].queries) << i;
-        EXPECT_EQ(a[i].stop, b[i].stop) << i;
-    }
-}
 
 /// `estimate(receiver index, scratch)` of all receivers by one thread and by four, which share everything but scratch.
 template <class Estimate>

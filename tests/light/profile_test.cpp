@@ -18,6 +18,17 @@ TEST(SpotProfile, IsOneInsideZeroOutsideAndASquaredRampBetween) {
     EXPECT_NEAR(p(0.7f), 0.25f, 1e-6f);
 }
 
+TEST(SpotProfile, WithoutARampIsAStep) {
+    const SpotProfile step{0.5f, 0.5f};
+    EXPECT_EQ(step(0.5f), 1.0f);
+    EXPECT_EQ(step(0.75f), 1.0f);
+    EXPECT_EQ(step(0.25f), 0.0f);
+    EXPECT_EQ(step.emission_bound(-1.0f, 0.5f), 1.0f);
+    EXPECT_EQ(step.emission_bound(-1.0f, 0.25f), 0.0f);
+    const SpotProfile merged = merge(step, SpotProfile{0.9f, 0.1f});
+    for (const float c : {0.1f, 0.3f, 0.5f, 0.9f}) EXPECT_GE(merged(c), step(c));
+}
+
 TEST(SpotProfile, MergedIsNowhereBelowEither) {
     Random random(1);
     for (int trial = 0; trial < 20000; ++trial) {

@@ -209,5 +209,19 @@ TEST(LightTree, ReadsSpansAndRefersToTheLights) {
     EXPECT_EQ(from_array.topology().item_count(), 3u);
 }
 
+TEST(LightTree, RefusesToRefitToBadLightsAndStaysAsItWas) {
+    std::vector<OmniLight<>> lights(3);
+    for (std::size_t i = 0; i < 3; ++i) lights[i] = {glm::vec3(static_cast<float>(i)), glm::vec3(1.0f), {}};
+    LightTree tree(lights);
+    const auto before = tree.clusters()[tree.topology().root()].box;
+    lights[0].position = glm::vec3(-5.0f);
+    lights[2].intensity = glm::vec3(std::numeric_limits<float>::quiet_NaN());
+    EXPECT_THROW(tree.refit(), invalid_input);
+    EXPECT_EQ(tree.clusters()[tree.topology().root()].box, before);
+    lights[2].intensity = glm::vec3(1.0f);
+    tree.refit();
+    EXPECT_EQ(tree.clusters()[tree.topology().root()].box.lo, glm::vec3(-5.0f));
+}
+
 }  // namespace
 }  // namespace lightcuts::test

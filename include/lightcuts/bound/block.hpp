@@ -1,7 +1,5 @@
 #pragma once
 
-#include <limits>
-
 #include <glm/vec3.hpp>
 
 #include "../core/cone.hpp"
@@ -118,9 +116,7 @@ inline void lane_emission(ClusterBlock& b) {
     lane_power<1>(b.axis, s, b, front);
     for (int i = 0; i < lane_count; ++i) {
         // Where all lies behind the axis the cosine is negative, and the largest is that of a far point.
-        const float x = magnitude(b.centre[0][i]) + b.half[0][i], y = magnitude(b.centre[1][i]) + b.half[1][i],
-                    z = magnitude(b.centre[2][i]) + b.half[2][i];
-        const float farthest2 = x * x + y * y + z * z;
+        const float farthest2 = b.farthest2[i];
         const float most = s.value[i] + s.noise[i];
         const bool is_behind = larger(most, larger(farthest2 - 1e37f, 1e-30f - farthest2)) < 0.0f;
         // A box that holds the receiver has an infinite bound here.
@@ -151,7 +147,7 @@ void lane_power(const glm::vec3& n, const ClusterBlock& b, Lanes& bound) {
 template <class F>
 void fill_lanes(int count, F&& f, Lanes& values) {
     for (int i = 0; i < count; ++i) values[i] = round_up(f(i));
-    for (int i = count; i < lane_count; ++i) values[i] = values[count - 1];
+    repeat_last(values, count);
 }
 
 /// Bounds emission x attenuation: the geometric term [Lightcuts 2005, Eq. 3].

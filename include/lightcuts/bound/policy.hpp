@@ -27,6 +27,18 @@ concept TwoStagePolicy = P::two_stages && requires(const P& policy) {
 
 namespace detail {
 
+/// `policy.quick` of several clusters of one kind: units[i] for *clusters[i]; all at once by `quick_many` if the policy
+/// has it.
+template <class Policy, class M, Light L>
+void quick_bounds(const Policy& policy, const M& material, const glm::vec3& point,
+                  const LightCluster<L>* const* clusters, std::size_t count, material_spectrum<M>* units) {
+    if constexpr (requires { policy.quick_many(material, point, clusters, count, units); }) {
+        policy.quick_many(material, point, clusters, count, units);
+    } else {
+        for (std::size_t i = 0; i < count; ++i) units[i] = policy.quick(material, *clusters[i], point);
+    }
+}
+
 /// Channel-wise product of two bounds, where 0 x infinity = 0.
 template <Spectrum S>
 constexpr S multiply_bounds(const S& a, const S& b) {
@@ -91,13 +103,19 @@ double cosine_lobe_bound(const glm::dvec3& n, const LightCluster<L>& cluster, co
     }
 }
 
-/// The product of the factors' bounds.
-template <class M, Light L>
-material_spectrum<M> material_bound(const M& material, const LightCluster<L>& cluster, const ClusterView& view) {
+/// Says what a material lacks to be bounded.
+template <class M>
+constexpr void require_bound() {
     static_assert(
         BoundedMaterial<M> || CompositeMaterial<M> || CosineLobeMaterial<M>,
         "a material needs upper_bound(offsets) const, which returns the spectrum that evaluate(to_light) does; "
         "or a stated cap: Capped{material, cap}");
+}
+
+/// The product of the factors' bounds.
+template <class M, Light L>
+material_spectrum<M> material_bound(const M& material, const LightCluster<L>& cluster, const ClusterView& view) {
+    require_bound<M>();
     using S = material_spectrum<M>;
     if constexpr (CompositeMaterial<M>) {
         S sum{};
@@ -117,10 +135,7 @@ material_spectrum<M> material_bound(const M& material, const LightCluster<L>& cl
 template <class M, Light L>
 void block_bound(const M& material, const LightCluster<L>* const* clusters, int count, const glm::vec3& point,
                  ClusterBlock& block, material_spectrum<M>* units) {
-    static_assert(
-        BoundedMaterial<M> || CompositeMaterial<M> || CosineLobeMaterial<M>,
-        "a material needs upper_bound(offsets) const, which returns the spectrum that evaluate(to_light) does; "
-        "or a stated cap: Capped{material, cap}");
+    require_bound<M>();
     using S = material_spectrum<M>;
     if constexpr (CompositeMaterial<M>) {
         for (int i = 0; i < count; ++i) units[i] = {};

@@ -11,8 +11,8 @@
 namespace lightcuts {
 
 /// A cluster's lights as a receiver sees them: the box of their offsets, or of the directions towards distant lights,
-/// and how near they are. Widened by the float rounding of the directions that materials are given,
-/// so that bounds over the box hold for what `evaluate` returns; zeros stay zeros.
+/// and how near they are. Widened by the float rounding of the directions that materials are given, so that bounds over
+/// the box hold for what `evaluate` returns; zeros stay zeros.
 struct ClusterView {
     OffsetBox box;
     double distance2;         ///< lower bound of the squared distance; 0 if the box touches the receiver

@@ -12,37 +12,32 @@ namespace lightcuts {
 /// that compilers turn into vector code. Whatever float cannot do (overflow, denormals) makes a bound infinite.
 /// Fill with `set`, then call `finish`.
 struct OffsetBlock {
-    alignas(32) Lanes lo[3];
-    alignas(32) Lanes hi[3];
+    LaneVectors lo;
+    LaneVectors hi;
     alignas(32) Lanes centre[3];
-    alignas(32) Lanes half[3];  ///< of the edges
-    alignas(32) Lanes inverse;  ///< 1 / least distance; infinite if that is zero or out of float's range
+    alignas(32) Lanes half[3];    ///< of the edges
+    alignas(32) Lanes farthest2;  ///< upper bound of the squared distance
+    alignas(32) Lanes inverse;    ///< 1 / least distance; infinite if that is zero or out of float's range
 
     /// pre: 0 <= lane < lane_count
     void set(int lane, const glm::vec3& low, const glm::vec3& high) {
-        lo[0][lane] = low.x;
-        lo[1][lane] = low.y;
-        lo[2][lane] = low.z;
-        hi[0][lane] = high.x;
-        hi[1][lane] = high.y;
-        hi[2][lane] = high.z;
+        lo.set(lane, low);
+        hi.set(lane, high);
     }
 
     /// Repeats the last of `count` boxes in the lanes behind it, and completes all: widened by all rounding up to here,
     /// but corners at zero stay there. pre: count > 0
     void finish(int count) {
-        for (int k = 0; k < 3; ++k) {
-            detail::repeat_last(lo[k], count);
-            detail::repeat_last(hi[k], count);
-        }
+        detail::repeat_last(lo, count);
+        detail::repeat_last(hi, count);
         for (int k = 0; k < 3; ++k) {
             for (int i = 0; i < lane_count; ++i) {
-                const float low = lo[k][i], high = hi[k][i];
+                const float low = lo.x[k][i], high = hi.x[k][i];
                 const float c = 0.5f * low + 0.5f * high, h = 0.5f * high - 0.5f * low;
                 centre[k][i] = c;
                 half[k][i] = h + 1e-6f * (detail::magnitude(c) + h);
-                lo[k][i] = low - 1e-6f * detail::magnitude(low);
-                hi[k][i] = high + 1e-6f * detail::magnitude(high);
+                lo.x[k][i] = low - 1e-6f * detail::magnitude(low);
+                hi.x[k][i] = high + 1e-6f * detail::magnitude(high);
             }
         }
         for (int i = 0; i < lane_count; ++i) {
@@ -53,8 +48,8 @@ struct OffsetBlock {
             const float far_x = detail::magnitude(centre[0][i]) + half[0][i],
                         far_y = detail::magnitude(centre[1][i]) + half[1][i],
                         far_z = detail::magnitude(centre[2][i]) + half[2][i];
-            const float farthest2 = far_x * far_x + far_y * far_y + far_z * far_z;
-            const bool in_range = detail::smaller(d2 - 1e-30f, 1e34f - farthest2) > 0.0f;
+            farthest2[i] = far_x * far_x + far_y * far_y + far_z * far_z;
+            const bool in_range = detail::smaller(d2 - 1e-30f, 1e34f - farthest2[i]) > 0.0f;
             inverse[i] = detail::select(in_range, detail::inverse_sqrt(d2) * 1.000001f,
                                         std::numeric_limits<float>::infinity());
         }
@@ -71,8 +66,8 @@ struct LaneSupport {
 
 /// The support of one lane. From the corner farthest along v, so that boxes which touch the plane behind v give zero.
 inline void support_lane(float vx, float vy, float vz, const OffsetBlock& b, int i, LaneSupport& s) {
-    const float x = select(vx > 0.0f, b.hi[0][i], b.lo[0][i]), y = select(vy > 0.0f, b.hi[1][i], b.lo[1][i]),
-                z = select(vz > 0.0f, b.hi[2][i], b.lo[2][i]);
+    const float x = select(vx > 0.0f, b.hi.x[0][i], b.lo.x[0][i]), y = select(vy > 0.0f, b.hi.x[1][i], b.lo.x[1][i]),
+                z = select(vz > 0.0f, b.hi.x[2][i], b.lo.x[2][i]);
     const float px = vx * x, py = vy * y, pz = vz * z;
     s.value[i] = px + py + pz;
     // A product of factors that are not zero is not zero, though it may underflow.
@@ -141,12 +136,10 @@ void lane_power(const LaneVectors& v, const LaneSupport& s, const OffsetBlock& b
     alignas(32) Lanes step, best, result;
     for (int i = 0; i < lane_count; ++i) {
         const float cx = b.centre[0][i], cy = b.centre[1][i], cz = b.centre[2][i];
-        const float rx = magnitude(cx) + b.half[0][i], ry = magnitude(cy) + b.half[1][i],
-                    rz = magnitude(cz) + b.half[2][i];
         const float most = s.value[i] + s.noise[i];
         const float at_centre = v.x[0][i] * cx + v.x[1][i] * cy + v.x[2][i] * cz;
         const bool in_front = at_centre > 0.0f;
-        step[i] = select(in_front, cx * cx + cy * cy + cz * cz, rx * rx + ry * ry + rz * rz) /
+        step[i] = select(in_front, cx * cx + cy * cy + cz * cz, b.farthest2[i]) /
                   (k * select(in_front, at_centre, most));
         step[i] = smaller(larger(step[i], 1e-18f), 1e18f);  // any will do that overflows nothing
         const float inverse = b.inverse[i];

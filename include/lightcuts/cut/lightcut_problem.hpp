@@ -350,16 +350,7 @@ private:
         std::array<S, lane_count> units;
         const std::size_t count = candidates.size();
         for (std::size_t i = 0; i < count; ++i) clusters[i] = &tree.clusters()[candidates[i]->node->node];
-        if constexpr (requires {
-                          policy_.quick_many(receiver_.material, receiver_.position, clusters.data(), count,
-                                             units.data());
-                      }) {
-            policy_.quick_many(receiver_.material, receiver_.position, clusters.data(), count, units.data());
-        } else {
-            for (std::size_t i = 0; i < count; ++i) {
-                units[i] = policy_.quick(receiver_.material, *clusters[i], receiver_.position);
-            }
-        }
+        detail::quick_bounds(policy_, receiver_.material, receiver_.position, clusters.data(), count, units.data());
         for (std::size_t i = 0; i < count; ++i) {
             node& n = *candidates[i]->node;
             lower_bound(n, units[i], *clusters[i]);

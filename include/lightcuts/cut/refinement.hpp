@@ -18,8 +18,7 @@ namespace lightcuts {
 /// - `priority(node)`: not negative, possibly infinite, never NaN. Use bounds, never what an estimate happened to
 ///   show: that biases sums.
 /// - `threshold()`: nodes of a priority above it are refined. May change between rounds.
-/// - `split(node, out)`: appends the nodes that replace it: two, or fewer if some need not be in the cut. `node` lies
-/// in
+/// - `split(node, out)`: appends the nodes that replace it, two or fewer: some need not be in the cut. `node` lies in
 ///   `out`, which has room.
 /// - `before(a, b)`: a total order that breaks ties of priority, infinite ones above all.
 ///
@@ -27,9 +26,8 @@ namespace lightcuts {
 /// - `settled(node)`: true if the node can never be refined; the engine then looks at it no more.
 /// - `tighten(span of candidates)`: lowers priorities where it pays, before any of the nodes is split, in the nodes and
 ///   in the candidates. These are all nodes above the threshold; a node may come again.
-/// - `observe(visit)`: called before each round; `visit(f)` calls f(node) for the whole frontier, for problems that sum
-/// up
-///   again where they have lost count.
+/// - `observe(visit)`: called before each round, for problems that sum up again where they have lost count; `visit(f)`
+///   calls f(node) for the whole frontier.
 /// - `revise(visit)`: called when no priority is above the threshold; true if it made some larger, and the engine looks
 ///   again. Must become false.
 /// - `mark()` and `growth()`: the second bounds the factor by which any priority has grown since the first was called.

@@ -60,13 +60,14 @@ bool is_split_later(const Stratum& a, const Stratum& b) {
 /// threshold of 0 splits as long as `samples` allow; larger ones leave samples to be shared out in proportion to
 /// importance. pre: threshold >= 0. cost: up to `samples` shadow rays, or one a tree if that is more; two importances
 /// for each split and for each node that a descent visits.
-template <class Forest, class M, class Oracle, class Policy = TwoStageBounds>
-Estimate<typename Forest::spectrum> adaptive_splitting(const Forest& forest, const Receiver<M>& receiver,
-                                                       const Oracle& oracle, float threshold, std::uint32_t samples,
-                                                       std::uint64_t seed,
-                                                       EstimateScratch<typename Forest::spectrum>& scratch,
-                                                       const Policy& policy = {}) {
-    using S = typename Forest::spectrum;
+template <TreeOrForest Lights, class M, class Oracle, class Policy = TwoStageBounds>
+Estimate<forest_spectrum<Lights>> adaptive_splitting(const Lights& lights, const Receiver<M>& receiver,
+                                                     const Oracle& oracle, float threshold, std::uint32_t samples,
+                                                     std::uint64_t seed,
+                                                     EstimateScratch<forest_spectrum<Lights>>& scratch,
+                                                     const Policy& policy = {}) {
+    const auto& forest = as_forest(lights);
+    using S = forest_spectrum<Lights>;
     using Stratum = typename EstimateScratch<S>::Stratum;
     const auto least = static_cast<double>(threshold);
     auto& heap = scratch.strata;

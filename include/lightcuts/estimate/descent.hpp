@@ -138,10 +138,7 @@ Estimate<typename Forest::spectrum> estimate_draws(const Forest& forest, const R
                 return tree.lights()[draws[begin + static_cast<std::size_t>(i)].light];
             };
             const int count = static_cast<int>(end - begin);
-            LightBlock block;
-            for (int i = 0; i < count; ++i) block.set(i, light_of(i));
-            block.template finish<L>(count);
-            unshadowed_terms<L>(receiver, block, count, light_of, terms);
+            unshadowed_terms<L>(receiver, count, light_of, terms);
             for (int i = 0; i < count; ++i) {
                 const S radiance = finite_product(terms[static_cast<std::size_t>(i)], S(intensity_of(light_of(i))));
                 if (is_black(radiance)) continue;

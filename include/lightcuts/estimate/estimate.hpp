@@ -78,16 +78,12 @@ void for_each_unshadowed(const Receiver<M>& receiver, std::span<const L> lights,
     static_assert(Material<std::remove_cvref_t<M>>,
                   "a material needs evaluate(to_light) const, which returns a Spectrum");
     using S = spectrum_of<L>;
-    LightBlock block;
     LaneSpectra<S> terms;
     for (std::size_t begin = 0; begin < lights.size(); begin += lane_count) {
         const std::span<const L> members = lights.subspan(begin,
                                                           std::min<std::size_t>(lane_count, lights.size() - begin));
-        const int count = static_cast<int>(members.size());
-        for (int i = 0; i < count; ++i) block.set(i, members[static_cast<std::size_t>(i)]);
-        block.template finish<L>(count);
-        unshadowed_terms<L>(
-            receiver, block, count, [&](int i) -> const L& { return members[static_cast<std::size_t>(i)]; }, terms);
+        const auto light_of = [&](int i) -> const L& { return members[static_cast<std::size_t>(i)]; };
+        unshadowed_terms<L>(receiver, static_cast<int>(members.size()), light_of, terms);
         for (std::size_t i = 0; i < members.size(); ++i) {
             if constexpr (ClampedLight<L>) terms[i] = at_most(terms[i], clamp.terms);
             const S contribution = finite_product(terms[i], S(intensity_of(members[i])));
@@ -98,7 +94,7 @@ void for_each_unshadowed(const Receiver<M>& receiver, std::span<const L> lights,
 
 template <Spectrum S>
 struct RadianceSum {
-    std::array<double, static_cast<std::size_t>(channels_of<S>)> sum{};
+    ChannelSums<S> sum{};
 
     void add(const S& radiance, double weight) {
         for (int c = 0; c < channels_of<S>; ++c) {

@@ -82,16 +82,7 @@ void find_importances(const Policy& policy, const Receiver<M>& receiver,
     using S = spectrum_of<L>;
     LIGHTCUTS_ASSERT(clusters.size() <= lane_count);
     std::array<S, lane_count> units;
-    if constexpr (requires {
-                      policy.quick_many(receiver.material, receiver.position, clusters.data(), clusters.size(),
-                                        units.data());
-                  }) {
-        policy.quick_many(receiver.material, receiver.position, clusters.data(), clusters.size(), units.data());
-    } else {
-        for (std::size_t i = 0; i < clusters.size(); ++i) {
-            units[i] = policy.quick(receiver.material, *clusters[i], receiver.position);
-        }
-    }
+    quick_bounds(policy, receiver.material, receiver.position, clusters.data(), clusters.size(), units.data());
     for (std::size_t i = 0; i < clusters.size(); ++i) {
         all[i] = importance_of(*clusters[i], units[i], receiver.position);
     }

@@ -69,14 +69,14 @@ private:
 /// descent [Yuksel 2019]. The cut is refined by bounds alone to at most `samples` clusters, so that it does not depend
 /// on what is drawn. Unbiased, without the bands that fixed representatives cause. cost: up to `samples` shadow rays,
 /// or one a tree if that is more; two importances for each split and for each node that a descent visits.
-template <class Forest, class M, class Oracle, class Policy = TwoStageBounds>
-Estimate<typename Forest::spectrum> stochastic_lightcuts(const Forest& forest, const Receiver<M>& receiver,
-                                                         const Oracle& oracle, std::uint32_t samples,
-                                                         std::uint64_t seed,
-                                                         EstimateScratch<typename Forest::spectrum>& scratch,
-                                                         const Policy& policy = {}) {
-    using Stratum = typename EstimateScratch<typename Forest::spectrum>::Stratum;
-    detail::BoundedCutProblem<Forest, M, Policy> problem(forest, receiver, policy);
+template <TreeOrForest Lights, class M, class Oracle, class Policy = TwoStageBounds>
+Estimate<forest_spectrum<Lights>> stochastic_lightcuts(const Lights& lights, const Receiver<M>& receiver,
+                                                       const Oracle& oracle, std::uint32_t samples, std::uint64_t seed,
+                                                       EstimateScratch<forest_spectrum<Lights>>& scratch,
+                                                       const Policy& policy = {}) {
+    const auto& forest = as_forest(lights);
+    using Stratum = typename EstimateScratch<forest_spectrum<Lights>>::Stratum;
+    detail::BoundedCutProblem<forest_of<Lights>, M, Policy> problem(forest, receiver, policy);
     scratch.refinement.run(problem, {.max_nodes = samples});
     scratch.strata.clear();
     scratch.refinement.for_each([&](const Stratum& cluster) { scratch.strata.push_back(cluster); });

@@ -93,11 +93,12 @@ std::vector<std::uint32_t> leaves_of(const LightTree<L>& tree) {
 /// Estimates the sum over all lights from `samples` of them, drawn by stochastic descent of the trees with stratified
 /// random numbers [Shirley et al. 1996; Conty Estevez and Kulla 2018]. Unbiased.
 /// cost: up to `samples` shadow rays; two importances for each node that a descent visits, shared by all that do.
-template <class Forest, class M, class Oracle, class Policy = TwoStageBounds>
-Estimate<typename Forest::spectrum> tree_sampling(const Forest& forest, const Receiver<M>& receiver,
-                                                  const Oracle& oracle, std::uint32_t samples, std::uint64_t seed,
-                                                  EstimateScratch<typename Forest::spectrum>& scratch,
-                                                  const Policy& policy = {}) {
+template <TreeOrForest Lights, class M, class Oracle, class Policy = TwoStageBounds>
+Estimate<forest_spectrum<Lights>> tree_sampling(const Lights& lights, const Receiver<M>& receiver, const Oracle& oracle,
+                                                std::uint32_t samples, std::uint64_t seed,
+                                                EstimateScratch<forest_spectrum<Lights>>& scratch,
+                                                const Policy& policy = {}) {
+    const auto& forest = as_forest(lights);
     scratch.draws.clear();
     const auto roots = detail::chances_of(detail::root_importances(policy, receiver, forest));
     if (!detail::any(roots)) return {};

@@ -50,13 +50,22 @@ inline void caps_of(const OffsetBlock& b, DirectionCaps& caps) {
     }
 }
 
+/// Where unit `v` lies as seen from a cap's axis: cosine and sine.
+struct CapAngle {
+    float along;
+    float beside;
+};
+
+inline CapAngle angle_from(const DirectionCaps& caps, int i, const glm::vec3& v) {
+    const float cx = caps.centre[0][i], cy = caps.centre[1][i], cz = caps.centre[2][i];
+    const float x = v.y * cz - v.z * cy, y = v.z * cx - v.x * cz, z = v.x * cy - v.y * cx;
+    return {v.x * cx + v.y * cy + v.z * cz, square_root(x * x + y * y + z * z)};
+}
+
 /// Upper bounds of max(0, cos) between unit `v` and the directions of each cap. 1 for one that is not narrow.
 inline void clamped_max_cosines(const glm::vec3& v, const DirectionCaps& caps, Lanes& cosines) {
     for (int i = 0; i < lane_count; ++i) {
-        const float cx = caps.centre[0][i], cy = caps.centre[1][i], cz = caps.centre[2][i];
-        const float along = v.x * cx + v.y * cy + v.z * cz;
-        const float x = v.y * cz - v.z * cy, y = v.z * cx - v.x * cz, z = v.x * cy - v.y * cx;
-        const float beside = square_root(x * x + y * y + z * z);
+        const auto [along, beside] = angle_from(caps, i, v);
         const float c = larger(along * caps.cos[i] + beside * caps.sin[i] + 2e-6f, 0.0f);
         const bool inside = smaller(caps.cos[i] - 2e-6f - along, caps.narrow[i] - 0.5f) <= 0.0f;
         cosines[i] = select(inside, 1.0f, smaller(c, 1.0f));
@@ -66,10 +75,7 @@ inline void clamped_max_cosines(const glm::vec3& v, const DirectionCaps& caps, L
 /// Lower bounds of the same. 0 for a cap that is not narrow.
 inline void clamped_min_cosines(const glm::vec3& v, const DirectionCaps& caps, Lanes& cosines) {
     for (int i = 0; i < lane_count; ++i) {
-        const float cx = caps.centre[0][i], cy = caps.centre[1][i], cz = caps.centre[2][i];
-        const float along = v.x * cx + v.y * cy + v.z * cz;
-        const float x = v.y * cz - v.z * cy, y = v.z * cx - v.x * cz, z = v.x * cy - v.y * cx;
-        const float beside = square_root(x * x + y * y + z * z);
+        const auto [along, beside] = angle_from(caps, i, v);
         const float c = along * caps.cos[i] - beside * caps.sin[i] - 2e-6f;
         cosines[i] = select(c * caps.narrow[i] > 0.0f, c, 0.0f);
     }

@@ -106,8 +106,7 @@ namespace detail {
 
 /// The box in lane `i`, in double; one that holds every direction where float has overflowed.
 inline OffsetBox lane_box(const OffsetBlock& block, int i) {
-    const OffsetBox box{glm::dvec3(block.lo[0][i], block.lo[1][i], block.lo[2][i]),
-                        glm::dvec3(block.hi[0][i], block.hi[1][i], block.hi[2][i])};
+    const OffsetBox box{glm::dvec3(block.lo.at(i)), glm::dvec3(block.hi.at(i))};
     const bool overflown = !(max_distance2(box) < std::numeric_limits<double>::infinity());
     return overflown ? OffsetBox{glm::dvec3(-1e38), glm::dvec3(1e38)} : box;
 }

@@ -45,4 +45,14 @@ void unshadowed_terms(const Receiver<M>& receiver, const LightBlock& lights, int
     }
 }
 
+/// The same for `count` lights `light_of(i)`. pre: 0 < count <= lane_count
+template <Light L, class M, class LightOf>
+void unshadowed_terms(const Receiver<M>& receiver, int count, const LightOf& light_of,
+                      LaneSpectra<spectrum_of<L>>& terms) {
+    LightBlock lights;
+    for (int i = 0; i < count; ++i) lights.set(i, light_of(i));
+    lights.template finish<L>(count);
+    unshadowed_terms<L>(receiver, lights, count, light_of, terms);
+}
+
 }  // namespace lightcuts
