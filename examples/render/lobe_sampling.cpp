@@ -4,33 +4,15 @@
 #include <numbers>
 
 #include <glm/geometric.hpp>
+#include <lightcuts/core/basis.hpp>
 
 namespace render {
 
 namespace {
 
+using lightcuts::around_z;
+using lightcuts::Basis;
 using std::numbers::pi;
-
-/// `v`, whose z lies along the unit vector `axis` [Duff et al. 2017].
-struct Frame {
-    glm::dvec3 x, y, z;
-
-    explicit Frame(const glm::dvec3& axis) : z(axis) {
-        const double sign = std::copysign(1.0, axis.z);
-        const double a = -1.0 / (sign + axis.z), b = axis.x * axis.y * a;
-        x = {1.0 + sign * axis.x * axis.x * a, sign * b, -sign * axis.x};
-        y = {b, sign + axis.y * axis.y * a, -axis.y};
-    }
-    glm::dvec3 out(const glm::dvec3& v) const { return v.x * x + v.y * y + v.z * z; }
-    glm::dvec3 in(const glm::dvec3& v) const { return {glm::dot(v, x), glm::dot(v, y), glm::dot(v, z)}; }
-};
-
-glm::dvec3 around_z(double cosine, double turn) {
-    const double sine = std::sqrt(std::fmax(0.0, 1.0 - cosine * cosine));
-    return {sine * std::cos(2.0 * pi * turn), sine * std::sin(2.0 * pi * turn), cosine};
-}
-
-double mean(const glm::vec3& v) { return (static_cast<double>(v.x) + v.y + v.z) / 3.0; }
 
 }  // namespace
 
@@ -46,15 +28,15 @@ LobeSampler::LobeSampler(const SurfaceLobes& lobes, const glm::vec3& normal, con
 }
 
 glm::dvec3 LobeSampler::diffuse(const glm::dvec2& u) const {
-    return Frame(normal_).out(around_z(std::sqrt(1.0 - u.x), u.y));
+    return Basis(normal_).out(around_z(std::sqrt(1.0 - u.x), u.y));
 }
 
 glm::dvec3 LobeSampler::glossy(const glm::dvec2& u) const {
     if (model_ == SurfaceLobes::Model::phong) {
-        return Frame(mirror_).out(around_z(std::pow(1.0 - u.x, 1.0 / (shininess_ + 1.0)), u.y));
+        return Basis(mirror_).out(around_z(std::pow(1.0 - u.x, 1.0 / (shininess_ + 1.0)), u.y));
     }
     // Visible normals of GGX, as a cap of the sphere [Dupuy and Benyoub 2023].
-    const Frame frame(normal_);
+    const Basis frame(normal_);
     const auto stretched = [&](const glm::dvec3& v) {
         return glm::normalize(glm::dvec3(shininess_ * v.x, shininess_ * v.y, v.z));
     };

@@ -7,6 +7,9 @@
 
 namespace render {
 
+/// Mean of the channels, by which chances are shared out.
+inline double mean(const glm::vec3& v) { return (static_cast<double>(v.x) + v.y + v.z) / 3.0; }
+
 /// Draws directions from the lobes of a surface seen from one side.
 class LobeSampler {
 public:

@@ -13,8 +13,6 @@ namespace render {
 
 namespace {
 
-double mean(const glm::vec3& v) { return (static_cast<double>(v.x) + v.y + v.z) / 3.0; }
-
 SurfacePoint point_of(const ParticleScene::Meeting& met, const glm::vec3& direction) {
     SurfacePoint point;
     static_cast<SurfaceLobes&>(point) = met.response.lobes;

@@ -30,7 +30,7 @@ struct Hit {
 /// A diffuse direction; its weight is the albedo.
 ScatteredParticle<V> diffuse(const Hit& hit, const V& albedo, const V& u) {
     const glm::dvec3 up(hit.normal);
-    const glm::dvec3 way = detail::turned_to(up, detail::around_z(std::sqrt(1.0 - double(u.x)), double(u.y)));
+    const glm::dvec3 way = Basis(up).out(around_z(std::sqrt(1.0 - double(u.x)), double(u.y)));
     return {hit.position + 1e-4f * hit.normal, V(way), albedo};
 }
 

@@ -10,6 +10,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "../core/basis.hpp"
 #include "../core/box.hpp"
 #include "../light/incidence.hpp"
 
@@ -20,21 +21,6 @@ struct Flight {
     glm::dvec3 origin;
     glm::dvec3 direction;  ///< unit
 };
-
-/// `v`, whose z lies along the unit vector `axis` [Duff et al. 2017].
-inline glm::dvec3 turned_to(const glm::dvec3& axis, const glm::dvec3& v) {
-    const double sign = std::copysign(1.0, axis.z);
-    const double a = -1.0 / (sign + axis.z), b = axis.x * axis.y * a;
-    const glm::dvec3 x(1.0 + sign * axis.x * axis.x * a, sign * b, -sign * axis.x);
-    const glm::dvec3 y(b, sign + axis.y * axis.y * a, -axis.y);
-    return v.x * x + v.y * y + v.z * axis;
-}
-
-/// The unit vector at `cosine` to z, `turn` of a full circle around it.
-inline glm::dvec3 around_z(double cosine, double turn) {
-    const double sine = std::sqrt(std::fmax(0.0, 1.0 - cosine * cosine)), angle = 2.0 * std::numbers::pi * turn;
-    return {sine * std::cos(angle), sine * std::sin(angle), cosine};
-}
 
 /// Emission about an axis as a staircase of equal steps of the angle.
 class EmissionStaircase {
@@ -114,9 +100,9 @@ Flight flight_from(const L& light, const Box& bounds, const glm::dvec2& uv, doub
         } else {
             const glm::dvec3 axis = glm::normalize(glm::dvec3(to_vec3(axis_of(light))));
             if constexpr (ProfiledLight<L>) {
-                return {origin, turned_to(axis, around_z(EmissionStaircase(light).cosine(uv.x), uv.y))};
+                return {origin, Basis(axis).out(around_z(EmissionStaircase(light).cosine(uv.x), uv.y))};
             } else {
-                return {origin, turned_to(axis, around_z(std::sqrt(1.0 - uv.x), uv.y))};
+                return {origin, Basis(axis).out(around_z(std::sqrt(1.0 - uv.x), uv.y))};
             }
         }
     }
