@@ -19,8 +19,11 @@ using std::numbers::pi;
 LobeSampler::LobeSampler(const SurfaceLobes& lobes, const glm::vec3& normal, const glm::vec3& to_viewer)
     : model_(lobes.model), shininess_(static_cast<double>(lobes.shininess)),
       normal_(glm::normalize(glm::dvec3(normal))), view_(glm::normalize(glm::dvec3(to_viewer))),
-      mirror_(glm::normalize(2.0 * glm::dot(normal_, view_) * normal_ - view_)), diffuse_share_(mean(lobes.diffuse)) {
-    if (model_ == SurfaceLobes::Model::phong) gloss_share_ = mean(lobes.specular);
+      diffuse_share_(mean(lobes.diffuse)) {
+    if (model_ == SurfaceLobes::Model::phong) {
+        mirror_ = glm::normalize(2.0 * glm::dot(normal_, view_) * normal_ - view_);
+        gloss_share_ = mean(lobes.specular);
+    }
     if (model_ == SurfaceLobes::Model::microfacet) {
         const auto grazing = static_cast<double>(schlick(static_cast<float>(glm::dot(normal_, view_))));
         gloss_share_ = mean(lobes.specular) * (1.0 - grazing) + grazing;

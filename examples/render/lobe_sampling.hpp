@@ -33,7 +33,8 @@ private:
 
     SurfaceLobes::Model model_;
     double shininess_;
-    glm::dvec3 normal_, view_, mirror_;
+    glm::dvec3 normal_, view_;
+    glm::dvec3 mirror_{0.0};  ///< the axis of Phong's lobe
     double diffuse_share_ = 0, gloss_share_ = 0;
 };
 

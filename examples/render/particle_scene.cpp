@@ -38,12 +38,13 @@ std::optional<ParticleScene::Meeting> ParticleScene::intersect(const glm::vec3& 
     if (!hit) return std::nullopt;
     const Material& material = scene_.materials[scene_.triangle_material[hit->triangle]];
     const SurfaceColors colors = colors_at(scene_, hit->triangle, hit->u, hit->v);
-    Meeting met;
+    std::optional<Meeting> result(std::in_place);
+    Meeting& met = *result;
     met.surface = surface_at(scene_, *hit, origin, direction);
     met.response = response_of(material, colors, met.surface, direction, shade_);
     met.normal = met.surface.geometric_normal;
     met.position = met.surface.leave(met.normal);
-    return met;
+    return result;
 }
 
 glm::vec3 ParticleScene::diffuse_albedo(const Meeting& met) const {

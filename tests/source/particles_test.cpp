@@ -193,9 +193,37 @@ TEST(VirtualLights, StartAsEveryKindOfLightEmits) {
     expect_first_bounces_where_light_falls<OrientedPointLight<>>(
         {{V(0.2f, 0.7f, 0.6f), down, V(1.0f), {}}, {V(0.9f, 0.3f, 0.1f), V(0.0f, -1.0f, 0.0f), V(0.1f), {}}});
     expect_first_bounces_where_light_falls<SpotLight<>>({{V(0.2f, 1.0f, 0.3f), down, V(1.0f), {0.98f, 0.9f}}});
+    // Profiles that differ, and one that two lights share.
+    const V straight(0.0f, -1.0f, 0.0f);
+    expect_first_bounces_where_light_falls<SpotLight<>>({{V(0.2f, 1.0f, 0.3f), down, V(1.0f), {0.98f, 0.9f}},
+                                                         {V(0.8f, 0.6f, 0.7f), straight, V(0.6f), {0.9f, 0.5f}},
+                                                         {V(0.7f, 1.0f, 0.2f), straight, V(0.4f), {0.98f, 0.9f}}});
     expect_first_bounces_where_light_falls<DistantLight<>>({{down, V(1.0f)}, {V(0.0f, -1.0f, 0.0f), V(2.0f)}});
     using Soft = OmniLight<V, PolynomialFalloff>;
     expect_first_bounces_where_light_falls<Soft>({{V(0.5f, 0.5f, 0.5f), V(1.0f), {1.0f, 0.5f, 1.0f}}});
+}
+
+TEST(WeightedChoice, IsTheFirstWhoseSumExceedsTheShare) {
+    const std::vector<std::vector<double>> cases = {{1.0},
+                                                    {0.0, 2.0, 0.0, 0.0},
+                                                    {1e-12, 1.0, 1e-12, 0.0, 1e12, 3.0, 0.0},
+                                                    std::vector<double>(1000, 0.1),
+                                                    {5.0, 1e-300, 1e-300, 1e-300, 0.0}};
+    for (const std::vector<double>& weights : cases) {
+        detail::WeightedChoice choice;
+        for (const double weight : weights) choice.add(weight);
+        choice.prepare();
+        for (std::uint32_t i = 0; i < 4096; ++i) {
+            const double u = i == 0 ? 0.0 : i == 1 ? 1.0 - 0x1p-53 : IndependentNumbers{}(i, 0);
+            const std::size_t chosen = choice(u);
+            ASSERT_LT(chosen, weights.size());
+            EXPECT_GT(weights[chosen], 0.0);
+            double before = 0.0;
+            for (std::size_t k = 0; k < chosen; ++k) before += weights[k];
+            EXPECT_LE(before, u * choice.total());
+            EXPECT_TRUE(before + weights[chosen] > u * choice.total() || i == 1);
+        }
+    }
 }
 
 TEST(VirtualLights, TravelOverMirrorsWithoutStayingThere) {

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <compare>
 #include <cstddef>
 #include <numbers>
 
@@ -40,15 +42,17 @@ public:
     }
     /// Flux of a light of intensity 1.
     double power() const { return power_; }
-    /// The cosine below which `u` of the power lies. pre: power() > 0
+    /// The cosine above which `u` of the power lies. pre: power() > 0
     double cosine(double u) const {
-        std::size_t i = 0;
-        while (i + 1 < steps && until_[i] <= u * power_) ++i;
+        const auto found = std::upper_bound(until_.begin(), until_.end() - 1, u * power_);
+        const auto i = static_cast<std::size_t>(found - until_.begin());
         const double start = i > 0 ? until_[i - 1] : 0.0;
         const double inside = (u * power_ - start) / (until_[i] - start);
         const double angle = std::numbers::pi / steps;
         return glm::mix(std::cos(angle * static_cast<double>(i)), std::cos(angle * static_cast<double>(i + 1)), inside);
     }
+
+    friend auto operator<=>(const EmissionStaircase&, const EmissionStaircase&) = default;
 
 private:
     static constexpr std::size_t steps = 512;
@@ -63,14 +67,13 @@ inline glm::dvec3 entered_faces(const Box& bounds, const glm::dvec3& direction) 
 }
 
 /// What `light` sends into a scene within `bounds`, for intensity 1: flux over intensity, sr; of a directional light
-/// the area of the bounds' outline, m^2.
+/// the area of the bounds' outline, m^2. Of a light with a profile see EmissionStaircase.
 template <Light L>
+    requires(!ProfiledLight<L>)
 double flux_factor(const L& light, const Box& bounds) {
     if constexpr (DirectionalLight<L>) {
         const glm::dvec3 faces = entered_faces(bounds, -glm::dvec3(place_of(light)));
         return faces.x + faces.y + faces.z;
-    } else if constexpr (ProfiledLight<L>) {
-        return EmissionStaircase(light).power();
     } else if constexpr (OrientedLight<L>) {
         return std::numbers::pi;
     } else {
@@ -78,33 +81,34 @@ double flux_factor(const L& light, const Box& bounds) {
     }
 }
 
-/// A particle of `light`: with (u, v) and w uniform, particles leave with the density of its emission.
+/// A particle of a directional light: with (u, v) and w uniform, particles enter `bounds` evenly.
+inline Flight parallel_flight(const glm::dvec3& direction, const Box& bounds, const glm::dvec2& uv, double w) {
+    const glm::dvec3 faces = entered_faces(bounds, direction);
+    const double at = w * (faces.x + faces.y + faces.z);
+    const int axis = at < faces.x ? 0 : at < faces.x + faces.y ? 1 : 2;
+    glm::dvec3 point(bounds.lo);
+    const glm::dvec3 size = extent(bounds);
+    point[axis] = static_cast<double>(direction[axis] > 0.0 ? bounds.lo[axis] : bounds.hi[axis]);
+    point[(axis + 1) % 3] += uv.x * size[(axis + 1) % 3];
+    point[(axis + 2) % 3] += uv.y * size[(axis + 2) % 3];
+    // From outside, for surfaces that lie in the face.
+    return {point - 0.01 * std::sqrt(diagonal2(bounds)) * direction, direction};
+}
+
+/// A particle of `light`: with (u, v) and w uniform, particles leave with the density of its emission. `profile`: the
+/// emission of a light that has one.
 template <Light L>
-Flight flight_from(const L& light, const Box& bounds, const glm::dvec2& uv, double w) {
+Flight flight_from(const L& light, const EmissionStaircase* profile, const Box& bounds, const glm::dvec2& uv,
+                   double w) {
+    const glm::dvec3 place(place_of(light));
     if constexpr (DirectionalLight<L>) {
-        const glm::dvec3 direction = -glm::dvec3(place_of(light));
-        const glm::dvec3 faces = entered_faces(bounds, direction);
-        const double at = w * (faces.x + faces.y + faces.z);
-        const int axis = at < faces.x ? 0 : at < faces.x + faces.y ? 1 : 2;
-        glm::dvec3 point(bounds.lo);
-        const glm::dvec3 size = extent(bounds);
-        point[axis] = static_cast<double>(direction[axis] > 0.0 ? bounds.lo[axis] : bounds.hi[axis]);
-        point[(axis + 1) % 3] += uv.x * size[(axis + 1) % 3];
-        point[(axis + 2) % 3] += uv.y * size[(axis + 2) % 3];
-        // From outside, for surfaces that lie in the face.
-        return {point - 0.01 * std::sqrt(diagonal2(bounds)) * direction, direction};
+        return parallel_flight(-place, bounds, uv, w);
+    } else if constexpr (OrientedLight<L>) {
+        const glm::dvec3 axis = glm::normalize(glm::dvec3(to_vec3(axis_of(light))));
+        const double cosine = ProfiledLight<L> ? profile->cosine(uv.x) : std::sqrt(1.0 - uv.x);
+        return {place, Basis(axis).out(around_z(cosine, uv.y))};
     } else {
-        const glm::dvec3 origin(place_of(light));
-        if constexpr (!OrientedLight<L>) {
-            return {origin, around_z(1.0 - 2.0 * uv.x, uv.y)};
-        } else {
-            const glm::dvec3 axis = glm::normalize(glm::dvec3(to_vec3(axis_of(light))));
-            if constexpr (ProfiledLight<L>) {
-                return {origin, Basis(axis).out(around_z(EmissionStaircase(light).cosine(uv.x), uv.y))};
-            } else {
-                return {origin, Basis(axis).out(around_z(std::sqrt(1.0 - uv.x), uv.y))};
-            }
-        }
+        return {place, around_z(1.0 - 2.0 * uv.x, uv.y)};
     }
 }
 

@@ -24,25 +24,32 @@ constexpr std::uint32_t reversed_bits(std::uint32_t x) {
     return ((x & 0x55555555u) << 1) | ((x & 0xaaaaaaaau) >> 1);
 }
 
-/// Owen's nested uniform scrambling of the bits of a fraction x / 2^32 [Laine and Karras 2011]: every bit is flipped
-/// by a hash of the bits above it.
-constexpr std::uint32_t nested_scramble(std::uint32_t x, std::uint32_t seed) {
-    x = reversed_bits(x);
+/// Flips every bit of `x` by a hash of the bits below it [Laine and Karras 2011]: Owen's nested uniform scrambling of
+/// the fraction whose bits are those of x, reversed.
+constexpr std::uint32_t scrambled_upwards(std::uint32_t x, std::uint32_t seed) {
     x ^= x * 0x3d20adeau;
     x += seed;
     x *= (seed >> 16) | 1u;
     x ^= x * 0x05526c56u;
     x ^= x * 0x53a22864u;
-    return reversed_bits(x);
+    return x;
 }
 
-/// Second coordinate of Sobol's sequence, whose first is `reversed_bits`.
-constexpr std::uint32_t sobol_second(std::uint32_t index) {
-    std::uint32_t x = 0;
-    for (std::uint32_t column = 0x80000000u; index != 0; index >>= 1, column ^= column >> 1) {
-        if ((index & 1u) != 0) x ^= column;
-    }
-    return x;
+/// The same of the bits of a fraction x / 2^32: every bit is flipped by a hash of the bits above it.
+constexpr std::uint32_t nested_scramble(std::uint32_t x, std::uint32_t seed) {
+    return reversed_bits(scrambled_upwards(reversed_bits(x), seed));
+}
+
+/// Second coordinate of Sobol's sequence with its bits reversed; those of the first are the index itself. Bit j is the
+/// sum, modulo 2, of the index's bits k times the binomial coefficients (k over j), which are odd where the bits of j
+/// are among those of k.
+constexpr std::uint32_t sobol_second_reversed(std::uint32_t index) {
+    index ^= (index >> 16) & 0x0000ffffu;
+    index ^= (index >> 8) & 0x00ff00ffu;
+    index ^= (index >> 4) & 0x0f0f0f0fu;
+    index ^= (index >> 2) & 0x33333333u;
+    index ^= (index >> 1) & 0x55555555u;
+    return index;
 }
 
 }  // namespace detail
@@ -58,8 +65,8 @@ struct LowDiscrepancy {
         const auto shuffle = static_cast<std::uint32_t>(hash_keys(seed, dimension / 2, 0));
         const auto scramble = static_cast<std::uint32_t>(hash_keys(seed, dimension, 1));
         const std::uint32_t at = nested_scramble(index, shuffle);
-        const std::uint32_t x = dimension % 2 == 0 ? reversed_bits(at) : sobol_second(at);
-        return static_cast<double>(nested_scramble(x, scramble)) * 0x1p-32;
+        const std::uint32_t x = dimension % 2 == 0 ? at : sobol_second_reversed(at);
+        return static_cast<double>(reversed_bits(scrambled_upwards(x, scramble))) * 0x1p-32;
     }
 };
 

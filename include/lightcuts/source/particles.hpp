@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -73,8 +74,14 @@ template <class Scene, class Emission, NumberSource Numbers>
 void follow(const Scene& scene, const Emission& emission, const Numbers& numbers, std::uint32_t index,
             std::uint32_t longest_path, ParticleTally<typename Emission::S>& tally) {
     using S = typename Emission::S;
-    const auto number = [&](std::uint32_t d) { return static_cast<double>(numbers(index, d)); };
-    emission.emit(number(0), {number(2), number(3)}, number(1), [&](const auto& light, const auto& emitted) {
+    // Together, as sources of numbers may share work among consecutive dimensions.
+    const auto four_numbers = [&](std::uint32_t dimension) {
+        std::array<double, 4> u;
+        for (std::uint32_t d = 0; d < 4; ++d) u[d] = static_cast<double>(numbers(index, dimension + d));
+        return u;
+    };
+    const std::array<double, 4> start = four_numbers(0);
+    emission.emit(start[0], {start[2], start[3]}, start[1], [&](const auto& light, const auto& emitted) {
         using L = std::remove_cvref_t<decltype(light)>;
         S power = emitted.power;
         glm::vec3 direction(emitted.flight.direction);
@@ -86,9 +93,9 @@ void follow(const Scene& scene, const Emission& emission, const Numbers& numbers
             power = power * (falloff_of(light, distance) * distance * distance);
         }
         for (std::uint32_t bounce = 0; bounce < longest_path; ++bounce) {
-            const std::uint32_t dimension = 4 + 4 * bounce;
+            const std::array<double, 4> drawn = four_numbers(4 + 4 * bounce);
             // One number decides on both the light and the way on: each alone is right, and fewer ways end in vain.
-            const double roulette = number(dimension + 3);
+            const double roulette = drawn[3];
             const S reflected = power * S(scene.diffuse_albedo(*hit));
             const double light_chance = channel_sum(reflected);
             if (roulette < light_chance) {
@@ -96,8 +103,8 @@ void follow(const Scene& scene, const Emission& emission, const Numbers& numbers
                 tally.lights.push_back(
                     {to_vec3((*hit).position), to_vec3((*hit).normal), S(reflected * static_cast<float>(scale)), {}});
             }
-            const auto below_one = [&](std::uint32_t d) {
-                return std::min(static_cast<float>(number(dimension + d)), 1.0f - 0x1p-24f);
+            const auto below_one = [&](std::size_t d) {
+                return std::min(static_cast<float>(drawn[d]), 1.0f - 0x1p-24f);
             };
             const glm::vec3 u(below_one(0), below_one(1), below_one(2));
             const ScatteredParticle<S> scattered = scene.scatter(*hit, direction, u);
