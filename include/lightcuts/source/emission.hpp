@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <compare>
 #include <cstddef>
 #include <numbers>
 
@@ -52,7 +51,8 @@ public:
         return glm::mix(std::cos(angle * static_cast<double>(i)), std::cos(angle * static_cast<double>(i + 1)), inside);
     }
 
-    friend auto operator<=>(const EmissionStaircase&, const EmissionStaircase&) = default;
+    /// Some order, in which equal staircases are neither before nor behind each other.
+    friend bool operator<(const EmissionStaircase& a, const EmissionStaircase& b) { return a.until_ < b.until_; }
 
 private:
     static constexpr std::size_t steps = 512;
