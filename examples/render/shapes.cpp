@@ -46,6 +46,26 @@ bool inside_profile(const std::vector<glm::vec2>& profile, const glm::vec2& p) {
 
 }  // namespace
 
+std::vector<glm::vec2> smooth_profile(std::span<const glm::vec2> points, int steps) {
+    std::vector<glm::vec2> result;
+    const auto at = [&](std::size_t i, std::size_t offset) {
+        const std::size_t j = i + offset;  // one to the right of the index meant
+        return points[j == 0 ? 0 : std::min(j - 1, points.size() - 1)];
+    };
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+        const std::array p{at(i, 0), at(i, 1), at(i, 2), at(i, 3)};
+        for (int s = 0; s < steps; ++s) {
+            const float t = static_cast<float>(s) / static_cast<float>(steps);
+            const glm::vec2 q = 0.5f * (2.0f * p[1] + t * (p[2] - p[0]) +
+                                        t * t * (2.0f * p[0] - 5.0f * p[1] + 4.0f * p[2] - p[3]) +
+                                        t * t * t * (3.0f * p[1] - p[0] - 3.0f * p[2] + p[3]));
+            result.emplace_back(std::max(q.x, 0.001f), q.y);
+        }
+    }
+    result.push_back(points.back());
+    return result;
+}
+
 bool Solid::contains(const glm::vec3& p) const {
     const auto between = [](const glm::vec3& v, const glm::vec3& from, const glm::vec3& to) {
         return v.x > from.x && v.x < to.x && v.y > from.y && v.y < to.y && v.z > from.z && v.z < to.z;
@@ -101,6 +121,12 @@ void Modeller::add_solid(const glm::vec3& low, const glm::vec3& high, std::span<
         solid.world_high = glm::max(solid.world_high, world);
     }
     solids.push_back(std::move(solid));
+}
+
+void Modeller::facet(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+    const auto first = static_cast<std::uint32_t>(scene.positions.size());
+    for (const glm::vec3& corner : {a, b, c}) vertex(corner, glm::vec3(0.0f));
+    triangle(first, first + 1, first + 2);
 }
 
 void Modeller::quad(const glm::vec3& corner, const glm::vec3& u, const glm::vec3& v, int cells_u, int cells_v) {
@@ -167,6 +193,29 @@ void Modeller::lathe(std::span<const glm::vec2> profile, int segments) {
         }
     }
     add_solid({-radius, low, -radius}, {radius, high, radius}, profile);
+}
+
+void Modeller::sleeve(std::span<const glm::vec3> points, int around) {
+    const auto columns = static_cast<std::size_t>(around);
+    const std::size_t rings = points.size() / columns;
+    const auto first = static_cast<std::uint32_t>(scene.positions.size());
+    const auto at = [&](std::size_t ring, std::size_t column) { return points[ring * columns + column % columns]; };
+    for (std::size_t i = 0; i < rings; ++i) {
+        for (std::size_t s = 0; s < columns; ++s) {
+            const glm::vec3 along = at(i, s + 1) - at(i, s + columns - 1);
+            const glm::vec3 up = at(std::min(i + 1, rings - 1), s) - at(i > 0 ? i - 1 : 0, s);
+            vertex(at(i, s), glm::cross(along, up));
+        }
+    }
+    for (std::size_t i = 0; i + 1 < rings; ++i) {
+        for (std::size_t s = 0; s < columns; ++s) {
+            const auto index = [&](std::size_t ring, std::size_t column) {
+                return first + static_cast<std::uint32_t>(ring * columns + column % columns);
+            };
+            triangle(index(i, s), index(i, s + 1), index(i + 1, s + 1));
+            triangle(index(i, s), index(i + 1, s + 1), index(i + 1, s));
+        }
+    }
 }
 
 void Modeller::sphere(const glm::vec3& center, float radius, int segments) {
