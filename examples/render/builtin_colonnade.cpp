@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstdint>
 #include <utility>
-#include <vector>
 
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/trigonometric.hpp>
@@ -44,7 +43,6 @@ public:
         add_cypresses();
         scene_.cameras.push_back({"aisle", {4.45f, 1.7f, 11.0f}, {4.55f, 2.25f, 0.0f}, {0, 1, 0}, 58.0f});
         scene_.cameras.push_back({"front", {13.5f, 1.9f, 24.0f}, {0.5f, 3.0f, 3.0f}, {0, 1, 0}, 46.0f});
-        scene_.cameras.push_back({"cella", {-1.9f, 1.8f, -6.4f}, {0.5f, 1.9f, 8.0f}, {0, 1, 0}, 60.0f});
         scene_.lighting.sun = lightcuts::SunPosition{30.0, 58.0, 3.0};
         scene_.lighting.indirect = 20'000;
     }
@@ -149,25 +147,13 @@ private:
             for (int i = 0; i < 2 * columns_across - 1; ++i) {
                 m_.stand({place_of(i, 2 * columns_across - 1, half_width), 0, side * (half_length + 0.43f)},
                          side > 0 ? 0.0f : 180.0f);
-                add_triglyph();
+                add_triglyph(m_, column_height + 0.6f, 0.48f, stone_);
             }
             for (int i = 1; i < 2 * columns_along - 2; ++i) {
                 m_.stand({side * (half_width + 0.43f), 0, place_of(i, 2 * columns_along - 1, half_length)},
                          side * 90.0f);
-                add_triglyph();
+                add_triglyph(m_, column_height + 0.6f, 0.48f, stone_);
             }
-        }
-    }
-
-    /// Three upright bars and the drops below them, on the wall z = 0.
-    void add_triglyph() {
-        const float h = column_height;
-        for (const float x : {-0.17f, 0.0f, 0.17f}) {
-            m_.box({x - 0.06f, h + 0.602f, -0.01f}, {x + 0.06f, h + 1.078f, 0.07f});
-        }
-        for (int i = 0; i < 6; ++i) {
-            const float x = -0.20f + 0.08f * static_cast<float>(i);
-            m_.cylinder({x, h + 0.45f, 0.055f}, 0.022f, 0.06f, 10);
         }
     }
 
@@ -277,7 +263,6 @@ private:
         add_statue(m_, 3.9f, marble_, bronze_);
     }
 
-    /// Trees around: ragged spindles.
     void add_cypresses() {
         Dice dice(431);
         for (int i = 0; i < 34; ++i) {
@@ -287,24 +272,8 @@ private:
             const float z = 1.25f * distance * std::cos(angle);
             if (x > 8.0f && z > 8.0f) continue;  // stays out of the front camera's way
             m_.stand({x, -3.0f * step_height, z});
-            add_cypress(dice.uniform(6.0f, 11.0f), dice);
+            add_cypress(m_, dice.uniform(6.0f, 11.0f), dice, leaf_);
         }
-    }
-
-    void add_cypress(float height, Dice& dice) {
-        m_.material = leaf_;
-        constexpr int rings = 22;
-        constexpr int around = 18;
-        std::vector<glm::vec3> points;
-        for (int i = 0; i < rings; ++i) {
-            const float t = (static_cast<float>(i) + 0.02f) / (rings - 1 + 0.04f);
-            for (int s = 0; s < around; ++s) {
-                const float angle = 6.2831853f * static_cast<float>(s) / around;
-                const float r = 0.12f * height * std::pow(t, 0.35f) * (1.0f - t) * dice.uniform(1.1f, 1.9f);
-                points.emplace_back(r * std::cos(angle), height * t, -r * std::sin(angle));
-            }
-        }
-        m_.sleeve(points, around);
     }
 
     Scene scene_;

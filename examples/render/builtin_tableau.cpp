@@ -50,9 +50,9 @@ private:
 
     /// Boards along x.
     void add_table_top() {
-        const std::array boards{m_.paint("walnut board", {0.19f, 0.10f, 0.05f}, 0.30f),
-                                m_.paint("brown board", {0.24f, 0.13f, 0.065f}, 0.34f),
-                                m_.paint("dark board", {0.15f, 0.08f, 0.045f}, 0.32f)};
+        const std::array boards{m_.paint("walnut board", {0.115f, 0.058f, 0.03f}, 0.30f),
+                                m_.paint("brown board", {0.15f, 0.078f, 0.04f}, 0.34f),
+                                m_.paint("dark board", {0.09f, 0.046f, 0.026f}, 0.32f)};
         Dice dice(307);
         constexpr int rows = 12;
         constexpr float depth = 0.2f;

@@ -118,6 +118,28 @@ void add_fluted_column(Modeller& m, float radius, float height, int flutes, std:
     m.box({-half, height - abacus, -half}, {half, height, half});
 }
 
+void add_triglyph(Modeller& m, float low, float height, std::uint32_t stone) {
+    m.material = stone;
+    for (const float x : {-0.17f, 0.0f, 0.17f}) {
+        m.box({x - 0.06f, low + 0.002f, -0.01f}, {x + 0.06f, low + height - 0.002f, 0.07f});
+    }
+    for (int i = 0; i < 6; ++i) {
+        const float x = -0.20f + 0.08f * static_cast<float>(i);
+        m.cylinder({x, low - 0.15f, 0.055f}, 0.022f, 0.06f, 10);
+    }
+}
+
+void add_cypress(Modeller& m, float height, Dice& dice, std::uint32_t leaf) {
+    m.material = leaf;
+    constexpr int rings = 22;
+    constexpr int around = 18;
+    const auto ring = [&](int i, float) {
+        const float t = (static_cast<float>(i) + 0.02f) / (rings - 1 + 0.04f);
+        return glm::vec2(0.12f * height * std::pow(t, 0.35f) * (1.0f - t) * dice.uniform(1.1f, 1.9f), height * t);
+    };
+    m.sleeve(rings_of(rings, around, ring), around);
+}
+
 void add_statue(Modeller& m, float height, std::uint32_t plinth, std::uint32_t body) {
     const glm::mat4 outer = m.place;
     const float foot = 0.25f * height;

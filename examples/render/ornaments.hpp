@@ -27,6 +27,12 @@ void add_pawn(Modeller& m, float height, int segments, std::uint32_t material);
 /// A Doric column: a fluted shaft that swells and tapers, and a capital. `radius`: of its foot.
 void add_fluted_column(Modeller& m, float radius, float height, int flutes, std::uint32_t stone);
 
+/// Part of a frieze against the wall z = 0: three upright bars from `low` up over `height`, and drops below them.
+void add_triglyph(Modeller& m, float low, float height, std::uint32_t stone);
+
+/// A cypress: a ragged spindle.
+void add_cypress(Modeller& m, float height, Dice& dice, std::uint32_t leaf);
+
 /// A standing figure in a long robe, on a plinth of a quarter of its height.
 void add_statue(Modeller& m, float height, std::uint32_t plinth, std::uint32_t body);
 

@@ -58,9 +58,9 @@ constexpr float lamp_radius = 0.014f;  ///< radians
 /// An evening sky over a dark floor, reddest behind the table.
 glm::vec3 dusk(const glm::vec3& direction) {
     const float red = 0.5f - 0.5f * direction.z;
-    const glm::vec3 horizon = glm::mix(glm::vec3(0.16f, 0.17f, 0.26f), glm::vec3(0.85f, 0.36f, 0.16f), red * red);
+    const glm::vec3 horizon = glm::mix(glm::vec3(0.16f, 0.17f, 0.26f), glm::vec3(0.60f, 0.30f, 0.27f), red * red);
     const glm::vec3 zenith(0.05f, 0.07f, 0.17f);
-    const glm::vec3 floor(0.055f, 0.045f, 0.04f);
+    const glm::vec3 floor(0.05f, 0.05f, 0.065f);
     if (direction.y < 0.0f) return glm::mix(horizon, floor, glm::smoothstep(0.0f, 0.30f, -direction.y));
     return glm::mix(zenith, horizon, std::exp(-4.0f * direction.y));
 }
