@@ -8,7 +8,9 @@
 
 #include "emitters.hpp"
 #include "load_scene.hpp"
+#include "options.hpp"
 #include "scene_sheet.hpp"
+#include "surroundings.hpp"
 #include "validate.hpp"
 #include "view.hpp"
 
@@ -25,6 +27,8 @@ bool is_builtin(const std::string& scene) { return scene.starts_with("builtin:")
 std::shared_ptr<const render::Scene> load(const std::string& name, std::uint32_t area_points) {
     auto scene = std::make_shared<render::Scene>(render::load_scene(name));
     render::add_emitter_lights(*scene, area_points);
+    render::Options usual;
+    render::add_surroundings(*scene, usual);
     render::require_lights(*scene);
     if (scene->omni.empty() && scene->oriented.empty() && scene->spots.empty() && scene->directional.empty()) {
         throw lightcuts::invalid_input(name + ": all lights are black; leave the scene out");
@@ -66,6 +70,7 @@ std::size_t ReportScene::light_count() const {
 std::vector<std::string> builtin_report_scenes() {
     std::vector<std::string> scenes;
     for (const std::string& name : render::builtin_names()) {
+        if (name == "screens") continue;  // all lights one by one, the reference, would take hours
         const bool counted = name == "directional" || name == "surfaces";
         scenes.push_back("builtin:" + name + (counted ? "?lights=10000" : ""));
     }

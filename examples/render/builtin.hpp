@@ -20,4 +20,16 @@ Scene builtin_directional(std::size_t lights);
 /// `rotated`: turned about an oblique axis, so that nothing in it is along the coordinate axes.
 Scene builtin_surfaces(std::size_t lights, bool rotated);
 
+/// A still life of glossy and matt things on a tray, about 160,000 triangles, in a studio at dusk: a map of windows,
+/// screens of light and one small lamp.
+Scene builtin_tableau();
+
+/// A temple of fluted columns around a cella, with statues and amphorae, about 220,000 triangles, in the sun, which is
+/// most of what lights it: the rest is the sky's, and what the stone reflects.
+Scene builtin_colonnade();
+
+/// An office at night, about 40,000 triangles, with two monitors of 640 x 480 pixels that show pictures. Every pixel is
+/// an oriented light; two dim panels at the ceiling are emissive surfaces.
+Scene builtin_screens();
+
 }  // namespace render

@@ -24,7 +24,8 @@ constexpr std::size_t most_lights = 100'000'000;
 constexpr float offset_share = 0x1p-16f;
 
 bool is_emissive(const Scene& scene, std::size_t triangle) {
-    return scene.materials[scene.triangle_material[triangle]].emission != glm::vec3(0.0f);
+    const Material& material = scene.materials[scene.triangle_material[triangle]];
+    return material.emission != glm::vec3(0.0f) && !material.only_seen;
 }
 
 /// Sets that can be united.

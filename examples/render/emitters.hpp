@@ -9,7 +9,7 @@
 namespace render {
 
 /// An emissive surface: a connected component of the triangles of one emissive material, where vertices at exactly
-/// equal positions count as one.
+/// equal positions count as one. What is only seen is none.
 struct EmissiveSurface {
     std::uint32_t material = 0;
     std::vector<std::uint32_t> triangles;

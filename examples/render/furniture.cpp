@@ -14,27 +14,6 @@ namespace {
 
 constexpr float two_pi = 2.0f * std::numbers::pi_v<float>;
 
-/// A smooth curve through `points` (Catmull and Rom), `steps` to an interval; the ends stay as they are.
-std::vector<glm::vec2> smooth_profile(std::span<const glm::vec2> points, int steps) {
-    std::vector<glm::vec2> result;
-    const auto at = [&](std::size_t i, std::size_t offset) {
-        const std::size_t j = i + offset;  // one to the right of the index meant
-        return points[j == 0 ? 0 : std::min(j - 1, points.size() - 1)];
-    };
-    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-        const std::array p{at(i, 0), at(i, 1), at(i, 2), at(i, 3)};
-        for (int s = 0; s < steps; ++s) {
-            const float t = static_cast<float>(s) / static_cast<float>(steps);
-            const glm::vec2 q = 0.5f * (2.0f * p[1] + t * (p[2] - p[0]) +
-                                        t * t * (2.0f * p[0] - 5.0f * p[1] + 4.0f * p[2] - p[3]) +
-                                        t * t * t * (3.0f * p[1] - p[0] - 3.0f * p[2] + p[3]));
-            result.emplace_back(std::max(q.x, 0.001f), q.y);
-        }
-    }
-    result.push_back(points.back());
-    return result;
-}
-
 /// A vessel with a flat base and a hollow at its mouth.
 std::vector<glm::vec2> vessel(std::span<const glm::vec2> outline, float height, int steps) {
     std::vector<glm::vec2> outer = smooth_profile(outline, steps);

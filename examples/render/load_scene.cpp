@@ -1,6 +1,7 @@
 #include "load_scene.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <charconv>
 #include <filesystem>
@@ -24,6 +25,17 @@ struct BuiltinOptions {
     std::optional<std::size_t> lights;
     std::optional<bool> rotated;
 };
+
+/// A built-in scene whose number of lights is not part of its name.
+struct FixedScene {
+    std::string_view name;
+    Scene (*make)();
+    std::string_view lights;  ///< what sets their number instead
+};
+constexpr std::array fixed_scenes{FixedScene{"hall", builtin_hall, "--area-points"},
+                                  FixedScene{"tableau", builtin_tableau, "--env-lights"},
+                                  FixedScene{"colonnade", builtin_colonnade, "--sky-lights and --indirect"},
+                                  FixedScene{"screens", builtin_screens, "--area-points for its two ceiling panels"}};
 
 [[noreturn]] void fail(std::string_view scene, const std::string& problem) {
     throw lightcuts::invalid_input(std::string(scene) + ": " + problem);
@@ -59,14 +71,14 @@ Scene load_builtin(std::string_view scene) {
         name = name.substr(0, mark);
     }
     if (options.rotated && name != "surfaces") fail(scene, "only the scene 'surfaces' can be rotated; leave it out");
-    if (name == "hall") {
-        if (options.lights)
-            fail(scene, "the hall's lights are its ceiling panels; use --area-points instead of lights=");
-        return builtin_hall();
-    }
     if (name == "omni") return builtin_omni(options.lights.value_or(10'000));
     if (name == "directional") return builtin_directional(options.lights.value_or(3'000));
     if (name == "surfaces") return builtin_surfaces(options.lights.value_or(30'000), options.rotated.value_or(true));
+    for (const FixedScene& fixed : fixed_scenes) {
+        if (name != fixed.name) continue;
+        if (options.lights) fail(scene, "its number of lights is not set by lights=; use " + std::string(fixed.lights));
+        return fixed.make();
+    }
     std::string known;
     for (const std::string& each : builtin_names()) known += (known.empty() ? "" : ", ") + each;
     fail(scene, "there is no such built-in scene; choose one of " + known);
@@ -97,6 +109,8 @@ Scene load_scene(std::string_view path_or_builtin) {
     return scene;
 }
 
-std::vector<std::string> builtin_names() { return {"hall", "omni", "directional", "surfaces"}; }
+std::vector<std::string> builtin_names() {
+    return {"hall", "omni", "directional", "surfaces", "tableau", "colonnade", "screens"};
+}
 
 }  // namespace render

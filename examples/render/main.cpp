@@ -83,20 +83,13 @@ std::optional<Picture> read_reference(const Options& options) {
     return reference;
 }
 
-Scene prepare_scene(const Options& options) {
+/// Options that have not been given take the scene's own values.
+Scene prepare_scene(Options& options) {
     Scene scene = load_scene(options.scene);
     if (!options.lights.empty()) add_light_table(options.lights, scene);
     add_emitter_lights(scene, options.area_points);
     add_sphere_lights(scene, options.area_points, options.seed);
-    if (!options.env.empty()) {
-        add_environment(scene, {options.env, options.env_lights, options.env_scale, options.env_rotate, options.seed});
-    }
-    if (options.sun_sky) {
-        const lightcuts::SunPosition sun{static_cast<double>(options.sun_sky->elevation),
-                                         static_cast<double>(options.sun_sky->azimuth),
-                                         static_cast<double>(options.turbidity)};
-        add_daylight(scene, sun, options.sky_lights, options.seed);
-    }
+    add_surroundings(scene, options);
     require_lights(scene);
     return scene;
 }
@@ -144,7 +137,7 @@ void save(const Outputs& outputs, const Picture& picture, const RunReport& repor
     json.commit();
 }
 
-ExitStatus render_scene(const Options& options) {
+ExitStatus render_scene(Options options) {
     const Outputs outputs(options.output);
     outputs.require_all_writable();
     const std::optional<Picture> reference = read_reference(options);

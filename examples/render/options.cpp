@@ -156,6 +156,8 @@ void check_together(const Options& options) {
 
 }  // namespace
 
+bool Options::is_given(const std::string& name) const { return contains(given, name); }
+
 bool Options::has_aov(const std::string& name) const { return contains(aovs, name); }
 
 const std::vector<std::string>& aov_names() {
@@ -252,28 +254,25 @@ Options parse_options(int argc, const char* const* argv) {
     });
     count("--area-points", "lights per emissive surface or sphere (64); 0 leaves them out", 0, many,
           options.area_points);
-    CLI::Option* env = text("--env", "FILE", "latitude-longitude map around the scene, .exr or .hdr",
-                            [&](const std::string& s) {
-                                if (s.empty()) refuse("--env", "''", "a file name");
-                                options.env = s;
-                            });
-    count("--env-lights", "distant lights that stand for it (3000); 0: it is only seen", 0, many, options.env_lights)
-        ->needs(env);
+    text("--env", "FILE", "latitude-longitude map around the scene, .exr or .hdr", [&](const std::string& s) {
+        if (s.empty()) refuse("--env", "''", "a file name");
+        options.env = s;
+    });
+    count("--env-lights", "distant lights that stand for it (3000); 0: it is only seen", 0, many, options.env_lights);
     text("--env-scale", "S", "times its radiance (1)", [&](const std::string& s) {
         options.env_scale = number_in("--env-scale", s, std::numeric_limits<float>::min(), huge, "a number above 0");
-    })->needs(env);
-    text("--env-rotate", "DEG", "counter-clockwise seen from above (0)", [&](const std::string& s) {
-        options.env_rotate = number_in("--env-rotate", s, -huge, huge, "degrees");
-    })->needs(env);
-    CLI::Option* sun_sky = text("--sun-sky", "ELEVATION,AZIMUTH", "sun and clear sky; degrees, azimuth from +z to +x",
-                                [&](const std::string& s) { set_sun(options, s); });
+    });
+    text("--env-rotate", "DEG", "counter-clockwise seen from above (0)",
+         [&](const std::string& s) { options.env_rotate = number_in("--env-rotate", s, -huge, huge, "degrees"); });
+    text("--sun-sky", "ELEVATION,AZIMUTH", "sun and clear sky; degrees, azimuth from +z to +x",
+         [&](const std::string& s) { set_sun(options, s); });
     text("--turbidity", "T", "haze of the sky, 2 (very clear) to 10 (3)", [&](const std::string& s) {
         options.turbidity = number_in("--turbidity", s, 2.0f, 10.0f, "a number from 2 to 10");
-    })->needs(sun_sky);
+    });
     count("--sky-lights", "distant lights that stand for the sky (5000); 0: it is only seen", 0, many,
-          options.sky_lights)
-        ->needs(sun_sky);
-    count("--indirect", "about so many virtual lights for indirect light (0)", 0, many, options.indirect);
+          options.sky_lights);
+    count("--indirect", "about so many virtual lights for indirect light (0, or the scene's own)", 0, many,
+          options.indirect);
     text("--clamp", "off", "limit of what a virtual light adds at a point; --indirect needs off",
          [&](const std::string& s) {
              if (s != "off") throw usage_error("--clamp " + s + ": comes with a later version; give --clamp off");
@@ -313,6 +312,9 @@ Options parse_options(int argc, const char* const* argv) {
         options.help = app.help();
         return options;
     } catch (const CLI::ParseError& e) { throw usage_error(one_line(e.what())); }
+    for (const CLI::Option* option : app.get_options()) {
+        if (option->count() > 0) options.given.push_back(option->get_name());
+    }
     if (version) options.action = Options::Action::version;
     if (list_scenes) options.action = Options::Action::list_scenes;
     check_together(options);

@@ -70,6 +70,9 @@ struct Options {
     std::uint64_t seed = 1;
     bool quiet = false;
 
+    std::vector<std::string> given;  ///< long names of those that the command line sets
+
+    bool is_given(const std::string& name) const;
     bool has_aov(const std::string& name) const;
 };
 

@@ -15,6 +15,7 @@
 #include <lightcuts/source/sphere.hpp>
 
 #include "background.hpp"
+#include "lighting.hpp"
 
 namespace render {
 
@@ -65,6 +66,7 @@ struct Material {
     int emission_texture = no_texture;
     UvTransform emission_uv;
     bool double_sided = false;  ///< an emitter emits on both sides
+    bool only_seen = false;     ///< its emission lights nothing: other lights of the scene stand for it
     Alpha alpha = Alpha::opaque;
     float alpha_cutoff = 0.5f;
     float base_alpha = 1.0f;
@@ -106,6 +108,7 @@ struct Scene {
     std::size_t sun_lights = 0;          ///< likewise
     std::size_t sky_lights = 0;
 
+    Lighting lighting;
     Background background;
 
     std::size_t dropped_triangles = 0;  ///< of zero area, left out when the scene was checked

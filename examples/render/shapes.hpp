@@ -32,6 +32,10 @@ private:
     std::uint64_t calls_ = 0;
 };
 
+/// A smooth curve through `points` (Catmull and Rom), `steps` to an interval; the ends stay as they are.
+/// Radii stay positive.
+std::vector<glm::vec2> smooth_profile(std::span<const glm::vec2> points, int steps);
+
 /// The inside of a closed shape, so that lights can be kept out of it.
 struct Solid {
     glm::mat4 to_local{1.0f};
@@ -60,6 +64,9 @@ struct Modeller {
     /// Moves the origin to `p`, turned by `degrees` about y.
     void stand(const glm::vec3& p, float degrees = 0.0f);
 
+    /// A flat triangle, seen counter-clockwise.
+    void facet(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c);
+
     /// A flat grid from `corner` along the sides `u` and `v`, looking along u x v.
     void quad(const glm::vec3& corner, const glm::vec3& u, const glm::vec3& v, int cells_u = 1, int cells_v = 1);
 
@@ -69,6 +76,10 @@ struct Modeller {
     /// Turns a profile of (radius, height) about the y axis. The profile goes upwards along the outside; a point
     /// given twice is a sharp edge. Closed, if its ends have radius 0.
     void lathe(std::span<const glm::vec2> profile, int segments);
+
+    /// A smooth surface around the y axis through rings of `around` points, counter-clockwise seen from above, the
+    /// lowest ring first. It is open at both ends.
+    void sleeve(std::span<const glm::vec3> points, int around);
 
     void sphere(const glm::vec3& center, float radius, int segments);
     void cylinder(const glm::vec3& base, float radius, float height, int segments);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstring>
+#include <initializer_list>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -10,6 +11,8 @@
 
 #include <stb_image.h>
 #include <lightcuts/core/invalid_input.hpp>
+#include <lightcuts/source/environment.hpp>
+#include <lightcuts/source/sun_sky.hpp>
 
 #include "text_file.hpp"
 
@@ -51,6 +54,42 @@ Picture read_map(const std::filesystem::path& path) {
     throw invalid_input(path.string() + ": not a kind of map that can be read; give an .exr or .hdr file");
 }
 
+/// `name`: of the map, for messages.
+void add_environment(Scene& scene, Picture map, const std::string& name, const Options& options) {
+    Environment environment{std::move(map), options.env_scale, options.env_rotate};
+    environment.picture.channels.clear();
+    try {
+        const auto lights = lightcuts::environment_lights(environment.map(), options.env_lights,
+                                                          lightcuts::CentredNumbers{options.seed});
+        scene.directional.insert(scene.directional.end(), lights.begin(), lights.end());
+        scene.environment_lights += lights.size();
+    } catch (const invalid_input& problem) {
+        throw invalid_input(name + ": " + problem.what() + "; correct it or give another map");
+    }
+    scene.background.environment = std::move(environment);
+}
+
+void add_daylight(Scene& scene, const Options& options) {
+    const lightcuts::SunSky daylight({static_cast<double>(options.sun_sky->elevation),
+                                      static_cast<double>(options.sun_sky->azimuth),
+                                      static_cast<double>(options.turbidity)});
+    const auto of_sun = lightcuts::sun_lights(daylight, sun_disc_lights, lightcuts::LowDiscrepancy{options.seed});
+    const auto of_sky = lightcuts::sky_lights(daylight, options.sky_lights, sky_rows,
+                                              lightcuts::CentredNumbers{options.seed});
+    scene.directional.insert(scene.directional.end(), of_sun.begin(), of_sun.end());
+    scene.directional.insert(scene.directional.end(), of_sky.begin(), of_sky.end());
+    scene.sun_lights += of_sun.size();
+    scene.sky_lights += of_sky.size();
+    scene.background.daylight = daylight;
+}
+
+/// Throws for the first of `details` that was given.
+void refuse_given(const Options& options, std::initializer_list<const char*> details, const std::string& needed) {
+    for (const char* name : details) {
+        if (options.is_given(name)) throw usage_error(std::string(name) + " needs " + needed);
+    }
+}
+
 }  // namespace
 
 Picture read_hdr(const std::filesystem::path& path) {
@@ -72,29 +111,31 @@ Picture read_hdr(const std::filesystem::path& path) {
     return picture;
 }
 
-void add_environment(Scene& scene, const EnvironmentOptions& options) {
-    Environment environment{read_map(options.file), options.scale, options.rotation};
-    environment.picture.channels.clear();
-    try {
-        const auto lights = lightcuts::environment_lights(environment.map(), options.lights,
-                                                          lightcuts::CentredNumbers{options.seed});
-        scene.directional.insert(scene.directional.end(), lights.begin(), lights.end());
-        scene.environment_lights += lights.size();
-    } catch (const invalid_input& problem) {
-        throw invalid_input(options.file.string() + ": " + problem.what() + "; correct it or give another map");
+void add_surroundings(Scene& scene, Options& options) {
+    Lighting own = std::move(scene.lighting);
+    scene.lighting = {};
+    if (options.env.empty() && !options.sun_sky) {
+        if (own.sun) {
+            options.sun_sky = {static_cast<float>(own.sun->elevation), static_cast<float>(own.sun->azimuth)};
+            if (!options.is_given("--turbidity")) options.turbidity = static_cast<float>(own.sun->turbidity);
+        }
+    } else {
+        own.environment.reset();
     }
-    scene.background.environment = std::move(environment);
-}
+    if (!options.is_given("--indirect")) options.indirect = own.indirect;
 
-void add_daylight(Scene& scene, const lightcuts::SunPosition& sun, std::size_t sky_lights, std::uint64_t seed) {
-    const lightcuts::SunSky daylight(sun);
-    const auto of_sun = lightcuts::sun_lights(daylight, sun_disc_lights, lightcuts::LowDiscrepancy{seed});
-    const auto of_sky = lightcuts::sky_lights(daylight, sky_lights, sky_rows, lightcuts::CentredNumbers{seed});
-    scene.directional.insert(scene.directional.end(), of_sun.begin(), of_sun.end());
-    scene.directional.insert(scene.directional.end(), of_sky.begin(), of_sky.end());
-    scene.sun_lights += of_sun.size();
-    scene.sky_lights += of_sky.size();
-    scene.background.daylight = daylight;
+    if (!options.env.empty()) {
+        add_environment(scene, read_map(options.env), options.env.string(), options);
+    } else if (own.environment) {
+        add_environment(scene, std::move(*own.environment), scene.name, options);
+    } else {
+        refuse_given(options, {"--env-lights", "--env-scale", "--env-rotate"}, "--env");
+    }
+    if (options.sun_sky) {
+        add_daylight(scene, options);
+    } else {
+        refuse_given(options, {"--turbidity", "--sky-lights"}, "--sun-sky");
+    }
 }
 
 }  // namespace render

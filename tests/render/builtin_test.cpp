@@ -23,7 +23,8 @@ std::size_t light_count(const Scene& s) {
 }
 
 TEST(Builtin, AllLoadWithCameras) {
-    EXPECT_EQ(render::builtin_names(), (std::vector<std::string>{"hall", "omni", "directional", "surfaces"}));
+    EXPECT_EQ(render::builtin_names(),
+              (std::vector<std::string>{"hall", "omni", "directional", "surfaces", "tableau", "colonnade", "screens"}));
     for (const std::string& name : render::builtin_names()) {
         const Scene s = load_scene("builtin:" + name);
         EXPECT_EQ(s.name, "builtin:" + name);
@@ -89,7 +90,8 @@ TEST(Builtin, PowerDoesNotDependOnTheCount) {
 }
 
 TEST(Builtin, AreDeterministic) {
-    for (const std::string name : {"hall", "omni?lights=500", "directional?lights=500", "surfaces?lights=500"}) {
+    for (const std::string name : {"hall", "omni?lights=500", "directional?lights=500", "surfaces?lights=500",
+                                   "tableau", "colonnade", "screens"}) {
         const Scene a = load_scene("builtin:" + name);
         const Scene b = load_scene("builtin:" + name);
         EXPECT_EQ(a.positions, b.positions);
@@ -133,12 +135,13 @@ TEST(Builtin, LightsStayOffGeometry) {
 
 TEST(Builtin, BadNames) {
     const auto refused = [](const std::string& name) { return refusal([&] { load_scene(name); }); };
-    EXPECT_THAT(refused("builtin:cave"), HasSubstr("hall, omni, directional, surfaces"));
+    EXPECT_THAT(refused("builtin:cave"), HasSubstr("hall, omni, directional, surfaces, tableau, colonnade, screens"));
     for (const char* name : {"builtin:omni?lights=0", "builtin:omni?lights=-4", "builtin:omni?lights=",
                              "builtin:omni?x=1", "builtin:omni?lights=5x", "builtin:surfaces?rotated=2"}) {
         EXPECT_THAT(refused(name), HasSubstr("lights=N")) << name;
     }
     EXPECT_THAT(refused("builtin:hall?lights=5"), HasSubstr("--area-points"));
+    EXPECT_THAT(refused("builtin:tableau?lights=5"), HasSubstr("--env-lights"));
     EXPECT_THAT(refused("builtin:omni?rotated=1"), HasSubstr("surfaces"));
 }
 
@@ -168,6 +171,23 @@ TEST(Shapes, LookOutwards) {
     EXPECT_NEAR(build([](auto& m) { m.box({0, 0, 0}, {1, 2, 3}); }), 6.0, 1e-5);
     EXPECT_NEAR(build([](auto& m) { m.sphere({0, 0, 0}, 1.0f, 64); }), 4.18879, 0.03);
     EXPECT_NEAR(build([](auto& m) { m.cylinder({0, 0, 0}, 1.0f, 2.0f, 64); }), 6.28319, 0.02);
+    EXPECT_NEAR(build([](auto& m) {
+                    m.facet({0, 0, 0}, {1, 0, 0}, {0, 0, 1});
+                    m.facet({0, 0, 0}, {0, 0, 1}, {0, 1, 0});
+                    m.facet({0, 0, 0}, {0, 1, 0}, {1, 0, 0});
+                    m.facet({1, 0, 0}, {0, 1, 0}, {0, 0, 1});
+                }),
+                1.0 / 6.0, 1e-6);
+    // Of a cylinder, which is 2 pi, its sides bound two thirds, seen from the middle.
+    EXPECT_NEAR(build([](auto& m) {
+                    std::vector<glm::vec3> rings;
+                    for (int i = 0; i < 96; ++i) {
+                        const float a = 0.1308997f * static_cast<float>(i % 48);
+                        rings.emplace_back(std::cos(a), i < 48 ? -1.0f : 1.0f, -std::sin(a));
+                    }
+                    m.sleeve(rings, 48);
+                }),
+                4.18879, 0.02);
     EXPECT_GT(build([](auto& m) {
                   std::vector<glm::vec3> ring;
                   for (int i = 0; i < 24; ++i) {

@@ -103,6 +103,14 @@ TEST(EmitterLights, TessellationOfAFlatSurfaceChangesNothing) {
     }
 }
 
+TEST(EmitterLights, NotOfWhatIsOnlySeen) {
+    Scene s = rectangle(2, 2);
+    s.materials[0].only_seen = true;
+    EXPECT_TRUE(emissive_surfaces(s).empty());
+    add_emitter_lights(s, 64);
+    EXPECT_TRUE(s.oriented.empty());
+}
+
 TEST(EmitterLights, OneLightLiesInTheMiddle) {
     Scene s = rectangle(4, 4);
     add_emitter_lights(s, 1);

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include <lightcuts/source/sun_sky.hpp>
+
+#include "picture.hpp"
+
+namespace render {
+
+/// How a scene is meant to be lit, beyond the lights in it, where the command line does not say otherwise.
+struct Lighting {
+    std::optional<Picture> environment;  ///< latitude-longitude map of radiance around it
+    std::optional<lightcuts::SunPosition> sun;
+    std::uint32_t indirect = 0;  ///< about so many virtual lights
+};
+
+}  // namespace render
