@@ -9,6 +9,7 @@
 #include "../bound/policy.hpp"
 #include "../core/random.hpp"
 #include "../material/terms.hpp"
+#include "../visibility/lit_side.hpp"
 #include "../visibility/oracle.hpp"
 #include "forest.hpp"
 #include "options.hpp"
@@ -156,7 +157,8 @@ public:
             if (n.queried) {
                 receive(n, forest_.visit(n.kind, [&](const auto& tree) {
                     const auto& light = tree.lights()[tree.topology().item(n.representative)];
-                    return static_cast<float>(oracle_(receiver_, light));
+                    return detail::on_lit_side(
+                        receiver_, light, [&](const auto& lit) { return static_cast<float>(oracle_(lit, light)); });
                 }));
             }
             add(n, 1.0);
@@ -321,9 +323,9 @@ private:
             if constexpr (BatchedOracle<Oracle>) {
                 // In place: what is written in pieces is slow to copy at once.
                 VisibilityQuery& query = queries_.emplace_back();
-                query.from = receiver_.shadow_origin;
-                query.receiver = receiver_.id;
                 query.to = lights.place.at(i);
+                query.from = receiver_.shadow_origin_towards(detail::towards<L>(receiver_.position, query.to));
+                query.receiver = receiver_.id;
                 query.light = tree.topology().item(n.representative);
                 query.kind = n.kind;
                 query.distant = DirectionalLight<L>;
@@ -389,8 +391,12 @@ private:
     /// Scales a cluster's bound by what the oracle knows to be the most that is visible of it.
     template <class Cluster>
     void hide(node& n, const Cluster& cluster) const {
-        const auto visible = static_cast<float>(
-            oracle_.upper_bound(receiver_, place_box<typename Cluster::light_type>{cluster.box}));
+        const place_box<typename Cluster::light_type> box{cluster.box};
+        auto visible = static_cast<float>(oracle_.upper_bound(receiver_, box));
+        if constexpr (R::two_sided) {
+            const auto behind = static_cast<float>(oracle_.upper_bound(detail::from_behind(receiver_), box));
+            visible = behind > visible ? behind : visible;
+        }
         if (visible >= 1.0f) return;
         const S fraction = make_spectrum<S>([&](int) { return visible; });
         lower_bound(n, detail::multiply_bounds(n.unit_bound, fraction), cluster);

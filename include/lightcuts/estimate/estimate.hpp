@@ -12,6 +12,7 @@
 #include "../cut/forest.hpp"
 #include "../cut/refinement.hpp"
 #include "../material/terms.hpp"
+#include "../visibility/lit_side.hpp"
 #include "../visibility/oracle.hpp"
 #include "importance.hpp"
 
@@ -123,8 +124,9 @@ std::uint32_t ask(const Forest& forest, const Receiver<M>& receiver, const Oracl
             forest.visit(c.kind, [&](const auto& tree) {
                 const auto& light = tree.lights()[c.light];
                 using L = typename std::remove_cvref_t<decltype(tree)>::light_type;
-                scratch.queries.push_back(
-                    {receiver.shadow_origin, receiver.id, place_of(light), c.light, c.kind, DirectionalLight<L>});
+                const glm::vec3 place = place_of(light);
+                scratch.queries.push_back({receiver.shadow_origin_towards(towards<L>(receiver.position, place)),
+                                           receiver.id, place, c.light, c.kind, DirectionalLight<L>});
             });
         }
         scratch.answers.resize(scratch.queries.size());
@@ -136,7 +138,9 @@ std::uint32_t ask(const Forest& forest, const Receiver<M>& receiver, const Oracl
     } else {
         for (const Contribution& c : contributions) {
             take(c, forest.visit(c.kind, [&](const auto& tree) {
-                return static_cast<float>(oracle(receiver, tree.lights()[c.light]));
+                const auto& light = tree.lights()[c.light];
+                return on_lit_side(receiver, light,
+                                   [&](const auto& lit) { return static_cast<float>(oracle(lit, light)); });
             }));
         }
         return static_cast<std::uint32_t>(contributions.size());
