@@ -155,18 +155,20 @@ public:
         request(fresh);
         for (node& n : fresh) {
             if (n.queried) {
-                receive(n, forest_.visit(n.kind, [&](const auto& tree) {
+                forest_.visit(n.kind, [&](const auto& tree) {
                     const auto& light = tree.lights()[tree.topology().item(n.representative)];
-                    return detail::on_lit_side(
-                        receiver_, light, [&](const auto& lit) { return static_cast<float>(oracle_(lit, light)); });
-                }));
+                    detail::on_lit_side(receiver_, light, [&](const auto& lit) {
+                        receive(n, detail::as_factor<S>(oracle_(lit, light)));
+                    });
+                });
             }
             add(n, 1.0);
         }
     }
 
     /// Takes the answers to the queries that `fresh` gave rise to, in their order; returns those left over.
-    std::span<const float> receive(std::span<node> fresh, std::span<const float> answers) {
+    template <class A>
+    std::span<const A> receive(std::span<node> fresh, std::span<const A> answers) {
         for (node& n : fresh) {
             if (n.queried) {
                 receive(n, answers.front());
@@ -320,7 +322,7 @@ private:
                 continue;
             }
             ++totals_.queries;
-            if constexpr (BatchedOracle<Oracle>) {
+            if constexpr (detail::AnswersMany<Oracle, S>) {
                 // In place: what is written in pieces is slow to copy at once.
                 VisibilityQuery& query = queries_.emplace_back();
                 query.to = lights.place.at(i);
@@ -402,8 +404,12 @@ private:
         lower_bound(n, detail::multiply_bounds(n.unit_bound, fraction), cluster);
     }
 
-    void receive(node& n, float visibility) const {
-        if (visibility == 1.0f) return;
+    /// `visibility`: a float or a spectrum
+    template <class A>
+    void receive(node& n, const A& visibility) const {
+        if constexpr (std::same_as<A, float>) {
+            if (visibility == 1.0f) return;
+        }
         n.terms = n.terms * visibility;
         n.estimate = n.estimate * visibility;
     }
