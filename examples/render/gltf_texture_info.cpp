@@ -29,6 +29,18 @@ glm::dvec2 pair(const tinygltf::Value& transform, const char* member, double oth
 
 }  // namespace
 
+tinygltf::TextureInfo texture_info(const tinygltf::Value& extension, const char* key) {
+    tinygltf::TextureInfo info;
+    if (!extension.Has(key)) return info;
+    const tinygltf::Value& value = extension.Get(key);
+    if (value.Has("index")) info.index = value.Get("index").GetNumberAsInt();
+    if (value.Has("texCoord")) info.texCoord = value.Get("texCoord").GetNumberAsInt();
+    if (value.Has("extensions") && value.Get("extensions").IsObject()) {
+        info.extensions = value.Get("extensions").Get<tinygltf::Value::Object>();
+    }
+    return info;
+}
+
 TextureUse texture_use(int tex_coord, const tinygltf::ExtensionMap& extensions) {
     TextureUse use{tex_coord, {}};
     const auto found = extensions.find("KHR_texture_transform");

@@ -12,6 +12,9 @@ struct TextureUse {
     UvTransform transform;
 };
 
+/// The textureInfo `key` of an extension; one without index if it is not there.
+tinygltf::TextureInfo texture_info(const tinygltf::Value& extension, const char* key);
+
 /// Of a textureInfo with these members, the extension KHR_texture_transform applied.
 /// throws: invalid_input naming the member that is no number.
 TextureUse texture_use(int tex_coord, const tinygltf::ExtensionMap& extensions);

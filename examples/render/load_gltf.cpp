@@ -32,7 +32,7 @@ namespace {
 constexpr std::array supported_extensions{"KHR_lights_punctual",        "KHR_materials_emissive_strength",
                                           "KHR_materials_transmission", "KHR_materials_ior",
                                           "KHR_mesh_quantization",      "KHR_materials_volume",
-                                          "KHR_texture_transform"};
+                                          "KHR_texture_transform",      "KHR_materials_diffuse_transmission"};
 
 double number(const tinygltf::Value& value, double otherwise) {
     return value.IsNumber() ? value.GetNumberAsDouble() : otherwise;
@@ -185,12 +185,33 @@ private:
         m.ior = static_cast<float>(number(extension_value(source.extensions, "KHR_materials_ior", "ior"), 1.5));
         m.transmission = static_cast<float>(
             number(extension_value(source.extensions, "KHR_materials_transmission", "transmissionFactor"), 0.0));
+        add_diffuse_transmission(source, m);
         m.double_sided = source.doubleSided;
         if (source.alphaMode == "MASK") m.alpha = Material::Alpha::mask;
         if (source.alphaMode == "BLEND") m.alpha = Material::Alpha::blend;
         m.alpha_cutoff = static_cast<float>(source.alphaCutoff);
         uv_sets_.push_back(add_texture_uses(source, m));
         scene_.materials.push_back(m);
+    }
+
+    static tinygltf::Value diffuse_transmission(const tinygltf::Material& source) {
+        const auto found = source.extensions.find("KHR_materials_diffuse_transmission");
+        return found != source.extensions.end() ? found->second : tinygltf::Value();
+    }
+
+    void add_diffuse_transmission(const tinygltf::Material& source, Material& m) {
+        const tinygltf::Value extension = diffuse_transmission(source);
+        if (!extension.IsObject()) return;
+        m.diffuse_transmission = static_cast<float>(number(extension.Get("diffuseTransmissionFactor"), 0.0));
+        if (m.diffuse_transmission == 0.0f) return;
+        m.diffuse_transmission_texture = texture(texture_info(extension, "diffuseTransmissionTexture").index, false);
+        const tinygltf::Value& color = extension.Get("diffuseTransmissionColorFactor");
+        std::vector<double> factors;
+        for (std::size_t i = 0; i < color.ArrayLen(); ++i)
+            factors.push_back(number(color.Get(static_cast<int>(i)), 1.0));
+        m.diffuse_transmission_color = to_vec3(factors, 1.0);
+        m.diffuse_transmission_color_texture = texture(texture_info(extension, "diffuseTransmissionColorTexture").index,
+                                                       true);
     }
 
     /// Says how the material's textures are addressed; returns the one set of uvs that all of them ask for.
@@ -214,6 +235,11 @@ private:
         add(m.metallic_roughness_texture, source.pbrMetallicRoughness.metallicRoughnessTexture,
             m.metallic_roughness_uv);
         add(m.emission_texture, source.emissiveTexture, m.emission_uv);
+        const tinygltf::Value thin = diffuse_transmission(source);
+        add(m.diffuse_transmission_texture, texture_info(thin, "diffuseTransmissionTexture"),
+            m.diffuse_transmission_uv);
+        add(m.diffuse_transmission_color_texture, texture_info(thin, "diffuseTransmissionColorTexture"),
+            m.diffuse_transmission_color_uv);
         return std::max(set, 0);
     }
 

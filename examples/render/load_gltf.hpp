@@ -8,10 +8,9 @@ namespace render {
 
 /// Reads a glTF 2.0 file, .gltf or .glb: its default scene's triangles with node transforms applied, materials,
 /// textures, perspective cameras, and the extensions KHR_lights_punctual, KHR_materials_emissive_strength,
-/// KHR_materials_transmission, KHR_materials_ior and KHR_mesh_quantization. Animation, skins, morph targets, normal
-/// maps and vertex colours are left out.
-/// throws: invalid_input naming the file and the element; also for an extension that the file requires and this
-/// reader does not know.
+/// KHR_materials_transmission, KHR_materials_diffuse_transmission, KHR_materials_ior and KHR_mesh_quantization.
+/// Animation, skins, morph targets, normal maps and vertex colours are left out. throws: invalid_input naming the file
+/// and the element; also for an extension that the file requires and this reader does not know.
 Scene load_gltf(const std::filesystem::path& path);
 
 }  // namespace render

@@ -27,19 +27,19 @@ glm::vec3 shadow_end(const Scene& scene, const glm::vec3& from, const L& light) 
     }
 }
 
-/// Visibility through surfaces that let light pass, as a share of its luminance.
+/// Visibility through surfaces that let light pass, tinted by them.
 class TransmissiveOracle {
 public:
     TransmissiveOracle(const Scene& scene, const RayScene& rays) : scene_(scene), rays_(rays) {}
 
     template <class R, lightcuts::Light L>
-    float operator()(const R& receiver, const L& light) const {
+    glm::vec3 operator()(const R& receiver, const L& light) const {
         const glm::vec3 from = receiver.shadow_origin;
         if constexpr (lightcuts::DirectionalLight<L>) {
             return rays_.to_infinity(from, lightcuts::place_of(light));
         } else {
             const glm::vec3 end = shadow_end(scene_, from, light);
-            return end == from ? 1.0f : rays_.to_point(from, end);
+            return end == from ? glm::vec3(1.0f) : rays_.to_point(from, end);
         }
     }
 

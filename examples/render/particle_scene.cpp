@@ -44,6 +44,7 @@ std::optional<ParticleScene::Meeting> ParticleScene::intersect(const glm::vec3& 
     met.response = response_of(material, colors, met.surface, direction, shade_);
     met.normal = met.surface.geometric_normal;
     met.position = met.surface.leave(met.normal);
+    met.position_behind = met.surface.leave(-met.normal);
     return result;
 }
 
@@ -51,11 +52,16 @@ glm::vec3 ParticleScene::diffuse_albedo(const Meeting& met) const {
     return glm::min(met.response.cover * met.response.lobes.diffuse, glm::vec3(1.0f));
 }
 
+glm::vec3 ParticleScene::diffuse_transmittance(const Meeting& met) const {
+    return glm::min(met.response.cover * met.response.lobes.transmitted, glm::vec3(1.0f));
+}
+
 lightcuts::ScatteredParticle<> ParticleScene::scatter(const Meeting& met, const glm::vec3& direction,
                                                       const glm::vec3& u) const {
     const LobeSampler lobes(met.response.lobes, met.surface.shading_normal, -direction);
     const double reflected = met.response.cover * (lobes.diffuse_share() + lobes.gloss_share());
-    double all = reflected;
+    const double transmitted = met.response.cover * mean(met.response.lobes.transmitted);
+    double all = reflected + transmitted;
     for (const Onward& way : met.response.onward()) all += mean(way.share);
     if (!(all > 0.0)) return {};
 
@@ -68,10 +74,18 @@ lightcuts::ScatteredParticle<> ParticleScene::scatter(const Meeting& met, const 
         }
         at -= share;
     }
+    if (at < transmitted) {
+        const glm::vec3 way(-lobes.diffuse(glm::dvec2(u)));
+        if (!(glm::dot(way, met.normal) < 0.0f)) return {};
+        const auto scale = static_cast<float>(met.response.cover * all / transmitted);
+        return {met.position_behind, way, met.response.lobes.transmitted * scale};
+    }
+    at -= transmitted;
     if (!(reflected > 0.0)) return {};
     const double diffuse_chance = lobes.diffuse_share() / (lobes.diffuse_share() + lobes.gloss_share());
     const glm::dvec2 uv(u);
     const glm::dvec3 way = at < diffuse_chance * reflected ? lobes.diffuse(uv) : lobes.glossy(uv);
+    if (!(glm::dot(glm::vec3(way), met.normal) > 0.0f)) return {};
     const double density = lobes.density(way, diffuse_chance) * reflected / all;
     const glm::vec3 value = met.response.cover * SurfaceMaterial(point_of(met, direction)).evaluate(glm::vec3(way));
     if (value == glm::vec3(0.0f) || !(density > 0.0)) return {};

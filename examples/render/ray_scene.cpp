@@ -1,10 +1,10 @@
 #include "ray_scene.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <stdexcept>
 #include <string>
 
-#include "luminance.hpp"
 #include "surface_colors.hpp"
 
 namespace render {
@@ -111,21 +111,20 @@ std::optional<Hit> RayScene::nearest(const glm::vec3& origin, const glm::vec3& d
     return Hit{triangles[query.hit.primID], query.hit.u, query.hit.v, query.ray.tfar};
 }
 
-float RayScene::pass(const glm::vec3& from, const glm::vec3& direction, float end) const {
+glm::vec3 RayScene::pass(const glm::vec3& from, const glm::vec3& direction, float end) const {
     RTCRay ray = make_ray(from, direction, end);
     LightContext context;
     init_context(context.embree);
     occluded(scene_, context.embree, ray);
     // Embree marks a blocked ray by a negative end.
-    if (ray.tfar < 0) return 0.0f;
-    return transmissive_ ? luminance(context.passed) : 1.0f;
+    return ray.tfar < 0 ? glm::vec3(0.0f) : context.passed;
 }
 
-float RayScene::to_point(const glm::vec3& from, const glm::vec3& to) const {
+glm::vec3 RayScene::to_point(const glm::vec3& from, const glm::vec3& to) const {
     return pass(from, to - from, shadow_ray_end);
 }
 
-float RayScene::to_infinity(const glm::vec3& from, const glm::vec3& direction) const {
+glm::vec3 RayScene::to_infinity(const glm::vec3& from, const glm::vec3& direction) const {
     return pass(from, direction, std::numeric_limits<float>::infinity());
 }
 
@@ -147,7 +146,8 @@ void RayScene::pass_light(const RTCFilterFunctionNArguments* arguments) {
     auto& context = *reinterpret_cast<LightContext*>(arguments->context);
     const std::uint32_t triangle = self.translucent_[RTCHitN_primID(arguments->hit, 1, 0)];
     context.passed *= tint_at(self.source_, triangle, RTCHitN_u(arguments->hit, 1, 0), RTCHitN_v(arguments->hit, 1, 0));
-    const bool blocked = luminance(context.passed) < blocked_below;
+    const glm::vec3& passed = context.passed;
+    const bool blocked = std::max({passed.x, passed.y, passed.z}) < blocked_below;
     if (!blocked) arguments->valid[0] = 0;
 }
 

@@ -37,12 +37,12 @@ public:
     /// plain occlusion queries of `embree_scene()` (single, packets or streams) answer the same.
     bool transmissive() const { return transmissive_; }
 
-    /// Share of light that travels between two points, [0, 1]: the luminance of the product of the tints of the
-    /// surfaces between them. The ray stops just short of `to`, which may lie on a surface.
-    float to_point(const glm::vec3& from, const glm::vec3& to) const;
+    /// Share of light that travels between two points, each channel in [0, 1]: the product of the tints of the surfaces
+    /// between them. The ray stops just short of `to`, which may lie on a surface.
+    glm::vec3 to_point(const glm::vec3& from, const glm::vec3& to) const;
 
     /// The same towards infinity; `direction` leads away from `from`.
-    float to_infinity(const glm::vec3& from, const glm::vec3& direction) const;
+    glm::vec3 to_infinity(const glm::vec3& from, const glm::vec3& direction) const;
 
     /// For occlusion queries by others. pre: `!transmissive()`, as the filters expect a context of this class.
     RTCScene embree_scene() const { return scene_; }
@@ -56,7 +56,7 @@ private:
     static void pass_light(const RTCFilterFunctionNArguments* arguments);
 
     void add_geometry(const std::vector<std::uint32_t>& triangles, bool with_filters);
-    float pass(const glm::vec3& from, const glm::vec3& direction, float end) const;
+    glm::vec3 pass(const glm::vec3& from, const glm::vec3& direction, float end) const;
 
     const Scene& source_;
     RTCDevice device_ = nullptr;

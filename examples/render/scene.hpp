@@ -58,11 +58,17 @@ struct Material {
     float roughness = 1.0f;
     int metallic_roughness_texture = no_texture;
     UvTransform metallic_roughness_uv;
-    glm::vec3 specular{0.0f};   ///< phong: Ks
-    float exponent = 0.0f;      ///< phong: Ns
-    float ior = 1.5f;           ///< glass
-    float transmission = 0.0f;  ///< share of light that a shadow ray keeps, times base_color (1 for glass)
-    glm::vec3 emission{0.0f};   ///< emitted radiance
+    glm::vec3 specular{0.0f};           ///< phong: Ks
+    float exponent = 0.0f;              ///< phong: Ns
+    float ior = 1.5f;                   ///< glass
+    float transmission = 0.0f;          ///< share of light that a shadow ray keeps, times base_color (1 for glass)
+    float diffuse_transmission = 0.0f;  ///< share of the diffuse part that takes light from behind
+    int diffuse_transmission_texture = no_texture;  ///< in its alpha
+    UvTransform diffuse_transmission_uv;
+    glm::vec3 diffuse_transmission_color{1.0f};  ///< that share's
+    int diffuse_transmission_color_texture = no_texture;
+    UvTransform diffuse_transmission_color_uv;
+    glm::vec3 emission{0.0f};  ///< emitted radiance
     int emission_texture = no_texture;
     UvTransform emission_uv;
     bool double_sided = false;  ///< an emitter emits on both sides

@@ -72,6 +72,13 @@ SurfaceColors colors_at(const Scene& scene, std::uint32_t triangle, float u, flo
     colors.metallic = glm::clamp(material.metallic * metal_rough.b, 0.0f, 1.0f);
     colors.roughness = glm::clamp(material.roughness * metal_rough.g, 0.0f, 1.0f);
     colors.transmission = transmission_of(material, colors.metallic);
+    if (material.diffuse_transmission > 0.0f) {
+        const float share = texel(scene, material.diffuse_transmission_texture, material.diffuse_transmission_uv(uv)).a;
+        colors.diffuse_transmission = glm::clamp(material.diffuse_transmission * share, 0.0f, 1.0f);
+        colors.diffuse_transmission_color = material.diffuse_transmission_color *
+                                            glm::vec3(texel(scene, material.diffuse_transmission_color_texture,
+                                                            material.diffuse_transmission_color_uv(uv)));
+    }
     colors.emission = emission_at(scene, triangle, u, v);
     return colors;
 }

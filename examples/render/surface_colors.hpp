@@ -16,7 +16,9 @@ struct SurfaceColors {
     float cover = 1;  ///< share of the point that is there at all: alpha MASK gives 0 or 1, BLEND alpha
     float metallic = 0;
     float roughness = 1;
-    float transmission = 0;  ///< share of light that passes, to be tinted by `base`; 0 where metallic
+    float transmission = 0;          ///< share of light that passes, to be tinted by `base`; 0 where metallic
+    float diffuse_transmission = 0;  ///< of the rest's diffuse part: share that leaves on the other side
+    glm::vec3 diffuse_transmission_color{0.0f};  ///< black where that is 0
     glm::vec3 emission{0.0f};
 };
 

@@ -42,7 +42,10 @@ struct Encounter {
             case Material::Model::mirror: mirror(colors.cover * colors.base); break;
             case Material::Model::glass: meet_glass(); break;
             case Material::Model::phong:
-                lobes = {colors.base, material.specular, material.exponent, SurfaceLobes::Model::phong};
+                lobes.diffuse = colors.base;
+                lobes.specular = material.specular;
+                lobes.shininess = material.exponent;
+                lobes.model = SurfaceLobes::Model::phong;
                 break;
             case Material::Model::microfacet: meet_microfacets(lobes); break;
         }
@@ -71,7 +74,9 @@ struct Encounter {
             pass(colors.cover * (colors.transmission - reflected) * colors.base);
             if (smooth) mirror(glm::vec3(colors.cover * reflected));
         }
-        lobes.diffuse = colors.base * (1.0f - colors.metallic) * (1.0f - colors.transmission);
+        const float diffuse = (1.0f - colors.metallic) * (1.0f - colors.transmission);
+        lobes.diffuse = colors.base * (diffuse * (1.0f - colors.diffuse_transmission));
+        lobes.transmitted = colors.diffuse_transmission_color * (diffuse * colors.diffuse_transmission);
         const bool mirrors_instead = smooth && colors.transmission > 0.0f;
         if (!mirrors_instead) lobes.specular = facing;
         const float roughness = std::max(colors.roughness, mirror_roughness);

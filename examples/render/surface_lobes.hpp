@@ -21,12 +21,16 @@ struct SurfaceLobes {
     /// direction. `microfacet`: height-correlated GGX with Schlick's Fresnel term.
     enum class Model : std::uint8_t { lambert, phong, microfacet };
 
-    glm::vec3 diffuse{0.0f};   ///< albedo of the Lambert part
-    glm::vec3 specular{0.0f};  ///< phong: Ks; microfacet: reflectance at normal incidence (F0)
-    float shininess = 0;       ///< phong: exponent e; microfacet: alpha = roughness^2
+    glm::vec3 diffuse{0.0f};      ///< albedo of the Lambert part
+    glm::vec3 specular{0.0f};     ///< phong: Ks; microfacet: reflectance at normal incidence (F0)
+    glm::vec3 transmitted{0.0f};  ///< diffuse transmittance, of light from behind to the viewer
+    float shininess = 0;          ///< phong: exponent e; microfacet: alpha = roughness^2
     Model model = Model::lambert;
 
-    bool is_black() const { return diffuse == glm::vec3(0.0f) && specular == glm::vec3(0.0f); }
+    bool is_black() const {
+        constexpr glm::vec3 black(0.0f);
+        return diffuse == black && specular == black && transmitted == black;
+    }
 };
 
 /// A direction in which a ray goes on from a surface as a ray: through a hole or a pane, or off a mirror.

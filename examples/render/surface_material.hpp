@@ -11,12 +11,14 @@
 
 namespace render {
 
-/// What a surface point reflects: Lambert's lobe and at most one glossy one, above both of its normals. Models the
-/// library's CompositeMaterial: bounds are formed of the parts.
+/// What a surface point does with light: Lambert's lobe and at most one glossy one above both of its normals, and
+/// Lambert's for what comes through from below both. Models the library's CompositeMaterial, so that bounds are formed
+/// of the parts, and TwoSidedMaterial.
 class SurfaceMaterial {
 public:
     explicit SurfaceMaterial(const SurfacePoint& p)
-        : geometric_normal_(p.geometric_normal), lambert_{p.shading_normal, p.diffuse} {
+        : geometric_normal_(p.geometric_normal), lambert_{p.shading_normal, p.diffuse}, transmitted_(p.transmitted),
+          is_thin_(p.transmitted != glm::vec3(0.0f)) {
         if (p.specular == glm::vec3(0.0f) && p.model != SurfacePoint::Model::microfacet) return;
         if (p.model == SurfacePoint::Model::phong) {
             gloss_.emplace<lightcuts::ModifiedPhong<>>(p.shading_normal, p.to_viewer, p.specular, p.shininess);
@@ -48,11 +50,20 @@ public:
         } else if (const auto* ggx = std::get_if<lightcuts::Ggx<>>(&gloss_)) {
             f(AboveHorizon<const lightcuts::Ggx<>&>{*ggx, geometric_normal_});
         }
+        if (is_thin_) [[unlikely]] {
+            f(AboveHorizon{lightcuts::Lambert{-lambert_.normal, transmitted_}, -geometric_normal_});
+        }
+    }
+
+    bool is_behind(const glm::vec3& to_light) const {
+        return is_thin_ && glm::dot(glm::dvec3(geometric_normal_), glm::dvec3(to_light)) < 0.0;
     }
 
 private:
     glm::vec3 geometric_normal_;
     lightcuts::Lambert<> lambert_;
+    glm::vec3 transmitted_;
+    bool is_thin_;
     std::variant<std::monostate, lightcuts::ModifiedPhong<>, lightcuts::Ggx<>> gloss_;
 };
 

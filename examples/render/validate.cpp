@@ -88,18 +88,22 @@ struct Checker {
             require(is_finite_and_not_negative(m.base_color), "the base colour");
             require(is_finite_and_not_negative(m.specular), "the specular colour");
             require(is_finite_and_not_negative(m.emission), "the emission");
+            require(is_finite_and_not_negative(m.diffuse_transmission_color), "the diffuse transmission colour");
             require(within(m.metallic, 0.0f, 1.0f), "metallic");
             require(within(m.roughness, 0.0f, 1.0f), "roughness");
             require(within(m.transmission, 0.0f, 1.0f), "transmission");
+            require(within(m.diffuse_transmission, 0.0f, 1.0f), "diffuse transmission");
             require(within(m.base_alpha, 0.0f, 1.0f), "alpha");
             require(std::isfinite(m.alpha_cutoff), "the alpha cutoff");
             require(within(m.exponent, 0.0f, 1e9f), "the specular exponent");
             require(within(m.ior, 0.1f, 100.0f), "the index of refraction");
-            for (const UvTransform& t : {m.base_color_uv, m.metallic_roughness_uv, m.emission_uv}) {
+            for (const UvTransform& t : {m.base_color_uv, m.metallic_roughness_uv, m.emission_uv,
+                                         m.diffuse_transmission_uv, m.diffuse_transmission_color_uv}) {
                 require(is_finite(glm::vec3(t.offset + t.u_axis + t.v_axis, 0.0f)), "a texture transform");
             }
             for (const int index :
-                 {m.base_color_texture, m.metallic_roughness_texture, m.emission_texture, m.alpha_texture}) {
+                 {m.base_color_texture, m.metallic_roughness_texture, m.emission_texture, m.alpha_texture,
+                  m.diffuse_transmission_texture, m.diffuse_transmission_color_texture}) {
                 if (index != no_texture && (index < 0 || static_cast<std::size_t>(index) >= scene.textures.size())) {
                     fail("material '" + m.name + "' has a texture that is not there; add it");
                 }

@@ -20,6 +20,7 @@
 #include "material/lambert.hpp"
 #include "material/phong.hpp"
 #include "material/sum.hpp"
+#include "material/thin_sheet.hpp"
 #include "material/ward.hpp"
 #include "tree/agglomerate.hpp"
 #include "tree/light_tree.hpp"

@@ -118,6 +118,14 @@ public:
     }
 };
 
+/// A material that also takes light from behind.
+class LeastLeaf : public LeastMaterial {
+public:
+    Bands evaluate(const glm::vec3&) const { return Bands(std::array<float, 5>{0.1f, 0.2f, 0.3f, 0.4f, 0.5f}); }
+    Bands upper_bound(const OffsetBox&) const { return evaluate({}); }
+    bool is_behind(const glm::vec3& to_light) const { return to_light.z < 0.0f; }
+};
+
 /// Answers about one light at a time.
 struct LeastOracle : private Pinned {
     LeastOracle() : Pinned(0) {}
@@ -132,6 +140,21 @@ struct LeastBatchedOracle : private Pinned {
     LeastBatchedOracle() : Pinned(0) {}
     void many(std::span<const VisibilityQuery> queries, std::span<float> answers) const {
         for (std::size_t i = 0; i < queries.size(); ++i) answers[i] = 1.0f;
+    }
+};
+
+/// Answers for each channel, about one light or about many.
+struct LeastTint : private Pinned {
+    LeastTint() : Pinned(0) {}
+    template <class R, class L>
+    Bands operator()(const R&, const L&) const {
+        return Bands(std::array<float, 5>{1.0f, 1.0f, 1.0f, 1.0f, 1.0f});
+    }
+};
+struct LeastTintingOracle : private Pinned {
+    LeastTintingOracle() : Pinned(0) {}
+    void many(std::span<const VisibilityQuery> queries, std::span<Bands> answers) const {
+        for (std::size_t i = 0; i < queries.size(); ++i) answers[i] = LeastTint()(0, 0);
     }
 };
 

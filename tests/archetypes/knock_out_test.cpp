@@ -137,10 +137,24 @@ struct ManyWithoutAnswers {
 struct MutableMany {
     void many(std::span<const VisibilityQuery>, std::span<float>) {}
 };
+struct OtherSpectrum {
+    glm::vec3 operator()(const R&, const LeastLight&) const { return {}; }
+    void many(std::span<const VisibilityQuery>, std::span<glm::vec3>) const {}
+};
+static_assert(ScalarOracle<LeastTint, R, LeastLight> && VisibilityOracle<LeastTint, R, LeastLight>);
+static_assert(TintingOracle<LeastTintingOracle, Bands> && VisibilityOracle<LeastTintingOracle, R, LeastLight>);
+static_assert(!TintingOracle<LeastTint, Bands> && !BatchedOracle<LeastTintingOracle>);
+static_assert(!VisibilityOracle<OtherSpectrum, R, LeastLight>);
 static_assert(ScalarOracle<LeastOracle, R, LeastLight> && !BatchedOracle<LeastOracle>);
 static_assert(BatchedOracle<LeastBatchedOracle> && !ScalarOracle<LeastBatchedOracle, R, LeastLight>);
 static_assert(!VisibilityOracle<NoAnswer, R, LeastLight> && !VisibilityOracle<OtherLight, R, LeastLight>);
 static_assert(!VisibilityOracle<ManyWithoutAnswers, R, LeastLight> && !VisibilityOracle<MutableMany, R, LeastLight>);
+
+// Two-sided materials
+struct Forgetful : LeastMaterial {
+    void is_behind(const glm::vec3&) const {}
+};
+static_assert(TwoSidedMaterial<LeastLeaf> && !TwoSidedMaterial<LeastMaterial> && !TwoSidedMaterial<Forgetful>);
 
 // Policies
 struct NoQuick {

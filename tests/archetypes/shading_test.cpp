@@ -28,12 +28,12 @@ struct Scene {
     std::array<LeastSun, 2> suns{LeastSun{{0, 0, -1}, bands(1)}, LeastSun{{0, -0.6f, -0.8f}, bands(1)}};
 };
 
-template <class Forest>
+template <class Forest, class Material, class Scalar, class Batched>
 void expect_shading(const Forest& forest) {
-    const LeastMaterial material;
-    const Receiver<const LeastMaterial&> receiver(glm::vec3(0.0f), material);
-    const LeastOracle scalar;
-    const LeastBatchedOracle batched;
+    const Material material;
+    const Receiver<const Material&> receiver(glm::vec3(0.0f), material);
+    const Scalar scalar;
+    const Batched batched;
     EstimateScratch<Bands> scratch;
     const Bands exact = exhaustive(forest, receiver, scalar, scratch).radiance;
     ASSERT_GT(exact[0], 0.0f);
@@ -67,19 +67,26 @@ void expect_shading(const Forest& forest) {
     expect_exact(shade(forest, receiver, scalar, all, SeparateBounds{}).radiance);
     expect_exact(shade(forest, receiver, scalar, all, LeastPolicy{}).radiance);
 
-    const std::array<Receiver<const LeastMaterial&>, 2> receivers{receiver, receiver};
+    const std::array<Receiver<const Material&>, 2> receivers{receiver, receiver};
     std::array<CutResult<Bands>, 2> results;
     LightcutScratch<Bands> cut_scratch;
-    shade(forest, std::span<const Receiver<const LeastMaterial&>>(receivers), batched,
-          std::span<CutResult<Bands>>(results), cut_scratch, all);
+    shade(forest, std::span<const Receiver<const Material&>>(receivers), batched, std::span<CutResult<Bands>>(results),
+          cut_scratch, all);
     expect_exact(results[1].radiance);
-    shade(forest, std::span<const Receiver<const LeastMaterial&>>(receivers), scalar,
-          std::span<CutResult<Bands>>(results), cut_scratch, all);
+    shade(forest, std::span<const Receiver<const Material&>>(receivers), scalar, std::span<CutResult<Bands>>(results),
+          cut_scratch, all);
     expect_exact(results[0].radiance);
 
     Lightcut cut(forest, receiver, scalar, all);
     while (cut.step()) {}
     expect_exact(cut.result().radiance);
+}
+
+template <class Forest>
+void expect_shading(const Forest& forest) {
+    expect_shading<Forest, LeastMaterial, LeastOracle, LeastBatchedOracle>(forest);
+    expect_shading<Forest, LeastMaterial, LeastTint, LeastTintingOracle>(forest);
+    expect_shading<Forest, LeastLeaf, LeastOracle, LeastBatchedOracle>(forest);
 }
 
 TEST(Archetype, OfALightIsShadedByEveryAlgorithm) {

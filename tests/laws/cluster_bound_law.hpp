@@ -185,6 +185,7 @@ void expect_bounds_hold_over_all_materials(std::uint64_t seed) {
     expect(LightOverMaterial<L, DiffuseAndGlossy>{}, "Lambert + GGX", 30000);
     expect(LightOverMaterial<L, AboveHorizon<Lambert<V>>>{}, "Lambert above a horizon", 30000);
     expect(LightOverMaterial<L, AboveHorizon<DiffuseAndGlossy>>{}, "Lambert + GGX above a horizon", 30000);
+    expect(LightOverMaterial<L, Leaf>{}, "leaf", 60000);
 }
 
 }  // namespace lightcuts::test

@@ -18,6 +18,7 @@
 #include <lightcuts/material/lambert.hpp>
 #include <lightcuts/material/phong.hpp>
 #include <lightcuts/material/sum.hpp>
+#include <lightcuts/material/thin_sheet.hpp>
 #include <lightcuts/material/ward.hpp>
 #include "support/random.hpp"
 
@@ -283,6 +284,15 @@ struct MaterialMaker<AboveHorizon<M>> {
         const double tilt = random.chance(0.2) ? 0.0 : 0.6;
         const glm::vec3 geometric(random.near(glm::normalize(glm::dvec3(n)), tilt));
         return {MaterialMaker<M>::make(random, n, view), geometric};
+    }
+};
+using Leaf = ThinSheet<DiffuseAndGlossy, Lambert<glm::vec3>>;
+template <>
+struct MaterialMaker<Leaf> {
+    static Leaf make(Random& random, const glm::vec3& n, const glm::vec3& view) {
+        const AboveHorizon<DiffuseAndGlossy> front = MaterialMaker<AboveHorizon<DiffuseAndGlossy>>::make(random, n,
+                                                                                                         view);
+        return {front.material, MaterialMaker<Lambert<glm::vec3>>::make(random, -n, -view), front.geometric_normal};
     }
 };
 

@@ -10,6 +10,7 @@
 #include <lightcuts/material/lambert.hpp>
 #include <lightcuts/material/phong.hpp>
 #include <lightcuts/material/sum.hpp>
+#include <lightcuts/material/thin_sheet.hpp>
 #include <lightcuts/material/ward.hpp>
 
 #include "../material/configurations.hpp"
@@ -116,6 +117,16 @@ TEST(MaterialBound, DominatesSumsAboveAHorizon) {
                                           ModifiedPhong{s.normal, s.view, 0.3f, 1.0f / alpha}},
                                       geometric};
               }));
+}
+
+TEST(MaterialBound, DominatesThinSheets) {
+    const auto make = [](const Surface& s, Numbers& numbers) {
+        const glm::vec3 geometric = material_test::unit(glm::dvec3(s.normal) + 0.5 * numbers.direction());
+        const auto alpha = static_cast<float>(numbers.magnitude(1e-3, 2.0));
+        return ThinSheet{Sum{Lambert{s.normal, 0.3f}, Ggx{s.normal, s.view, 0.04f, alpha}}, Lambert{-s.normal, 0.6f},
+                         geometric};
+    };
+    EXPECT_EQ(0, violations(80, make) + violations(81, make) + violations(82, make));
 }
 
 /// Ratio of bound to maximum at a quantile, over boxes 1 to 6 half-diagonals away, views at most 75 degrees from the

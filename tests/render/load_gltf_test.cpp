@@ -212,6 +212,44 @@ TEST_F(GltfFile, Materials) {
     EXPECT_NEAR(data.texels[1].g, 128.0f / 255.0f, 1e-6f);
 }
 
+TEST_F(GltfFile, DiffuseTransmission) {
+    folder.write("t.bmp", bitmap({{188, 0, 255}, {0, 128, 255}}));
+    const auto material = [](const std::string& members) {
+        return R"("images":[{"uri":"t.bmp"}],"textures":[{"source":0}],
+            "extensionsRequired":["KHR_materials_diffuse_transmission"],"materials":[{"name":"leaf","extensions":{
+            "KHR_materials_diffuse_transmission":{)" +
+               members + R"(}}}],"nodes":[{"mesh":0}])";
+    };
+    const auto read = [&](const std::string& members) { return load(material(members), R"(,"material":0)"); };
+    Scene s = read(R"("diffuseTransmissionFactor":0.4,"diffuseTransmissionColorFactor":[0.1,0.8,0.2],
+        "diffuseTransmissionTexture":{"index":0},"diffuseTransmissionColorTexture":{"index":0,
+        "extensions":{"KHR_texture_transform":{"offset":[0.5,0]}}})");
+    const Material& m = s.materials[0];
+    EXPECT_FLOAT_EQ(m.diffuse_transmission, 0.4f);
+    expect_near(m.diffuse_transmission_color, {0.1f, 0.8f, 0.2f});
+    ASSERT_EQ(s.textures.size(), 2u);
+    ASSERT_NE(m.diffuse_transmission_texture, render::no_texture);
+    ASSERT_NE(m.diffuse_transmission_color_texture, render::no_texture);
+    EXPECT_NEAR(s.textures[static_cast<std::size_t>(m.diffuse_transmission_color_texture)].texels[0].r, 0.5029f, 1e-4f);
+    expect_near(glm::vec3(m.diffuse_transmission_color_uv({0, 0}), 0.0f), {0.5f, 0, 0});
+    expect_near(glm::vec3(m.diffuse_transmission_uv({0, 0}), 0.0f), {0, 0, 0});
+
+    s = read(R"("diffuseTransmissionFactor":1)");
+    expect_near(s.materials[0].diffuse_transmission_color, {1, 1, 1});
+    EXPECT_EQ(s.materials[0].diffuse_transmission_texture, render::no_texture);
+    s = read(R"("diffuseTransmissionTexture":{"index":0})");
+    EXPECT_EQ(s.materials[0].diffuse_transmission, 0.0f);
+    EXPECT_TRUE(s.textures.empty()) << "what has no effect is not loaded";
+    const auto refused = [&](const std::string& members) {
+        return refusal([&] { load_scene(write(material(members), R"(,"material":0)")); });
+    };
+    EXPECT_THAT(refused(R"("diffuseTransmissionFactor":1.5)"), HasSubstr("'leaf': diffuse transmission"));
+    EXPECT_THAT(refused(R"("diffuseTransmissionFactor":1,"diffuseTransmissionColorFactor":[-1,1,1])"),
+                HasSubstr("'leaf': the diffuse transmission colour"));
+    EXPECT_THAT(refused(R"("diffuseTransmissionFactor":1,"diffuseTransmissionTexture":{"index":7})"),
+                HasSubstr("texture 7"));
+}
+
 TEST_F(GltfFile, TextureTransforms) {
     folder.write("t.bmp", bitmap({{255, 255, 255}}));
     const auto material = [&](const std::string& info) {

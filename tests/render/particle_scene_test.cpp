@@ -75,6 +75,13 @@ TEST(ParticleScene, ScattersAsSurfacesReflect) {
              m.roughness = 0.0f;
          }),
          0.01},
+        {"thin leaf", material([&](Material& m) {
+             m.base_color = paint;
+             m.roughness = 0.5f;
+             m.diffuse_transmission = 0.6f;
+             m.diffuse_transmission_color = {0.3f, 0.9f, 0.1f};
+         }),
+         0.01},
         {"mirror", material([&](Material& m) { m.model = Material::Model::mirror, m.base_color = paint; }), 1e-5},
         {"glass", material([&](Material& m) { m.model = Material::Model::glass, m.base_color = paint; }), 0.01},
     };
@@ -110,7 +117,7 @@ TEST(ParticleScene, ScattersAsSurfacesReflect) {
         for (const auto& point : points) {
             const render::SurfaceMaterial reflects(point);
             constexpr int steps = 500;
-            for (int i = 0; i < steps; ++i) {
+            for (int i = -steps; i < steps; ++i) {
                 for (int j = 0; j < 2 * steps; ++j) {
                     const double y = (i + 0.5) / steps, turn = std::numbers::pi * (j + 0.5) / steps;
                     const double across = std::sqrt(1.0 - y * y);
@@ -143,6 +150,8 @@ TEST(ParticleScene, KnowsItsBoundsAndAlbedos) {
     EXPECT_EQ(from_below->normal, glm::vec3(0, -1, 0));
     EXPECT_LE(from_below->position.y, 0.0f);
     EXPECT_EQ(surfaces.diffuse_albedo(*from_below), glm::vec3(0.25f, 1.0f, 0.125f));
+    EXPECT_EQ(surfaces.diffuse_transmittance(*from_below), glm::vec3(0.0f));
+    EXPECT_GT(from_below->position_behind.y, 0.0f);
 }
 
 }  // namespace

@@ -233,13 +233,13 @@ TEST(Visibility, IsPlainWhereEverythingIsOpaque) {
     square.alpha = Material::Alpha::mask;  // with nothing that is masked
     const RayScene rays(stack.scene);
     EXPECT_FALSE(rays.transmissive());
-    EXPECT_EQ(rays.to_point({0, 0, 1}, {0, 0, -1}), 0.0f);
-    EXPECT_EQ(rays.to_point({0, 0, 1}, {3, 0, -1}), 1.0f);
-    EXPECT_EQ(rays.to_infinity({0, 0, 1}, {0, 0, -1}), 0.0f);
-    EXPECT_EQ(rays.to_infinity({0, 0, 1}, {0, 0, 1}), 1.0f);
+    EXPECT_EQ(rays.to_point({0, 0, 1}, {0, 0, -1}), glm::vec3(0.0f));
+    EXPECT_EQ(rays.to_point({0, 0, 1}, {3, 0, -1}), glm::vec3(1.0f));
+    EXPECT_EQ(rays.to_infinity({0, 0, 1}, {0, 0, -1}), glm::vec3(0.0f));
+    EXPECT_EQ(rays.to_infinity({0, 0, 1}, {0, 0, 1}), glm::vec3(1.0f));
     // A light on the surface is not hidden by it, from either side.
-    EXPECT_EQ(rays.to_point({0.3f, 0.2f, 5}, {0, 0, 0}), 1.0f);
-    EXPECT_EQ(rays.to_point({0.3f, 0.2f, -5}, {0, 0, 0}), 1.0f);
+    EXPECT_EQ(rays.to_point({0.3f, 0.2f, 5}, {0, 0, 0}), glm::vec3(1.0f));
+    EXPECT_EQ(rays.to_point({0.3f, 0.2f, -5}, {0, 0, 0}), glm::vec3(1.0f));
 }
 
 TEST(Visibility, MultipliesTints) {
@@ -252,14 +252,17 @@ TEST(Visibility, MultipliesTints) {
     leaf.base_alpha = 0.25f;
     const RayScene rays(stack.scene);
     EXPECT_TRUE(rays.transmissive());
-    const float tint = 0.75f * 0.5f * (0.2126f + 0.5f * 0.7152f);
-    EXPECT_NEAR(rays.to_point({0.2f, 0, 2}, {0.1f, 0, -1}), tint, 1e-6f);
-    EXPECT_NEAR(rays.to_infinity({0.2f, 0.1f, -2}, {0, 0, 1}), tint, 1e-6f);
-    EXPECT_NEAR(rays.to_infinity({0.2f, 0.1f, 0.5f}, {0, 0, 1}), 0.75f, 1e-6f);
+    const glm::vec3 tint = 0.75f * 0.5f * glm::vec3(1.0f, 0.5f, 0.0f);
+    const auto expect = [](const glm::vec3& found, const glm::vec3& expected) {
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], expected[c], 1e-6f);
+    };
+    expect(rays.to_point({0.2f, 0, 2}, {0.1f, 0, -1}), tint);
+    expect(rays.to_infinity({0.2f, 0.1f, -2}, {0, 0, 1}), tint);
+    expect(rays.to_infinity({0.2f, 0.1f, 0.5f}, {0, 0, 1}), glm::vec3(0.75f));
 
     stack.add(0.5f);  // opaque, between the two
     const RayScene blocked(stack.scene);
-    EXPECT_EQ(blocked.to_point({0, 0, 2}, {0.1f, 0, -1}), 0.0f);
+    EXPECT_EQ(blocked.to_point({0, 0, 2}, {0.1f, 0, -1}), glm::vec3(0.0f));
 }
 
 TEST(Visibility, HonoursTheMaskOfATexture) {
@@ -275,8 +278,8 @@ TEST(Visibility, HonoursTheMaskOfATexture) {
     stack.scene.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
     const RayScene rays(stack.scene);
     EXPECT_TRUE(rays.transmissive());
-    EXPECT_EQ(rays.to_point({-0.5f, 0.1f, 1}, {-0.5f, 0.1f, -1}), 1.0f);
-    EXPECT_EQ(rays.to_point({0.5f, 0.1f, 1}, {0.5f, 0.1f, -1}), 0.0f);
+    EXPECT_EQ(rays.to_point({-0.5f, 0.1f, 1}, {-0.5f, 0.1f, -1}), glm::vec3(1.0f));
+    EXPECT_EQ(rays.to_point({0.5f, 0.1f, 1}, {0.5f, 0.1f, -1}), glm::vec3(0.0f));
     EXPECT_FALSE(rays.nearest({-0.5f, 0.1f, 1}, {0, 0, -1}).has_value());
     EXPECT_TRUE(rays.nearest({0.5f, 0.1f, 1}, {0, 0, -1}).has_value());
 }
@@ -298,8 +301,8 @@ TEST(Visibility, HonoursAMaskApartFromTheColour) {
     stack.scene.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
     const RayScene rays(stack.scene);
     EXPECT_TRUE(rays.transmissive());
-    EXPECT_EQ(rays.to_point({-0.5f, 0.1f, 1}, {-0.5f, 0.1f, -1}), 0.5f);
-    EXPECT_EQ(rays.to_point({0.5f, 0.1f, 1}, {0.5f, 0.1f, -1}), 1.0f);
+    EXPECT_EQ(rays.to_point({-0.5f, 0.1f, 1}, {-0.5f, 0.1f, -1}), glm::vec3(0.5f));
+    EXPECT_EQ(rays.to_point({0.5f, 0.1f, 1}, {0.5f, 0.1f, -1}), glm::vec3(1.0f));
 }
 
 TEST(Surface, LooksWhereTheTextureTransformSays) {

@@ -93,6 +93,22 @@ struct Floor {
     Box bounds() const { return {V(0.0f), V(1.0f, 0.0f, 1.0f)}; }
 };
 
+/// The floor as a sheet that passes light on.
+struct Sheet : Floor {
+    struct Meeting : Hit {
+        V position_behind;
+    };
+    V transmittance{0.0f};
+
+    std::optional<Meeting> intersect(const V& origin, const V& direction) const {
+        const auto hit = Floor::intersect(origin, direction);
+        if (!hit) return std::nullopt;
+        return Meeting{*hit, hit->position - V(0.0f, 1e-4f, 0.0f)};
+    }
+    V diffuse_transmittance(const Hit&) const { return transmittance; }
+};
+static_assert(TransmissiveParticleScene<Sheet, V> && !TransmissiveParticleScene<Floor, V>);
+
 static_assert(ParticleScene<Ball, V> && ParticleScene<Floor, V> && !ParticleScene<V, V>);
 
 glm::dvec3 flux_of(const std::vector<OrientedPointLight<V>>& lights) {
@@ -237,6 +253,34 @@ TEST(VirtualLights, TravelOverMirrorsWithoutStayingThere) {
     }
     // The mirror keeps all: each diffuse reflection follows the last one.
     EXPECT_LT(mean.standard_errors_from(4.0 * pi * 0.4 / 0.6), 6.0) << mean.value();
+}
+
+TEST(VirtualLights, LieOnBothSidesOfALeafByWhatLeavesThere) {
+    Sheet leaf;
+    leaf.albedo = V(0.1f, 0.5f, 0.0f);
+    leaf.transmittance = V(0.3f, 0.2f, 0.6f);
+    const std::vector<OrientedPointLight<V>> lamp{
+        {V(0.5f, 0.01f, 0.5f), V(0.0f, -1.0f, 0.0f), V(1.0f, 2.0f, 3.0f), {}}};
+    std::vector<Mean> above(3), behind(3);
+    for (std::uint64_t seed = 0; seed < 100; ++seed) {
+        const auto made = virtual_lights(leaf, ParticleSources(lamp), {.lights = 500}, LowDiscrepancy{seed});
+        std::vector<OrientedPointLight<V>> up, down;
+        for (const auto& l : made.lights) (l.axis.y > 0.0f ? up : down).push_back(l);
+        for (const auto& l : up) EXPECT_EQ(l.position.y, 0.0f);
+        for (const auto& l : down) EXPECT_EQ(l.position.y, -1e-4f);
+        const double power = channel_sum(made.lights.front().intensity);
+        for (const auto& l : made.lights) EXPECT_NEAR(channel_sum(l.intensity), power, 1e-5 * power);
+        for (std::size_t c = 0; c < 3; ++c) {
+            above[c].add(flux_of(up)[int(c)]);
+            behind[c].add(flux_of(down)[int(c)]);
+        }
+    }
+    for (std::size_t c = 0; c < 3; ++c) {
+        // All but 0.1 % of the lamp's light lands.
+        const double flux = pi * double(lamp[0].intensity[int(c)]);
+        EXPECT_NEAR(above[c].value(), flux * double(leaf.albedo[int(c)]), 0.01 * flux);
+        EXPECT_NEAR(behind[c].value(), flux * double(leaf.transmittance[int(c)]), 0.01 * flux);
+    }
 }
 
 TEST(VirtualLights, DependOnTheSeedButNotOnThreads) {

@@ -39,6 +39,7 @@ struct LightcutScratch {
     std::vector<Slot> slots;
     std::vector<VisibilityQuery> queries;
     std::vector<float> answers;
+    std::vector<S> tints;  ///< answers that are spectra
 };
 
 /// The scratch for shading by a tree or a forest.
@@ -176,11 +177,9 @@ private:
 
     template <class P>
     void evaluate_fresh(P& p) {
-        if constexpr (BatchedOracle<Oracle>) {
+        if constexpr (detail::AnswersMany<Oracle, S>) {
             p.request(refinement_.fresh());
-            answers_.resize(queries_.size());
-            if (!queries_.empty()) oracle_.many(std::span<const VisibilityQuery>(queries_), std::span(answers_));
-            p.receive(refinement_.fresh(), std::span<const float>(answers_));
+            p.receive(refinement_.fresh(), detail::ask_many(oracle_, queries_, answers_));
             queries_.clear();
         } else {
             p.evaluate(refinement_.fresh());
@@ -197,7 +196,7 @@ private:
     Refinement<CutNode<S, Forest::clamps>> refinement_;
     CutTotals<S, Forest::clamps> totals_;
     std::vector<VisibilityQuery> queries_;
-    std::vector<float> answers_;
+    std::vector<detail::many_answer<Oracle, S>> answers_;
 };
 
 template <TreeOrForest Lights, class R, class Oracle, class Policy = TwoStageBounds>
@@ -227,6 +226,7 @@ void shade_in_lock_step(const Forest& forest, std::span<const Receiver<M>> recei
                         std::span<CutResult<typename Forest::spectrum>> results,
                         LightcutScratch<typename Forest::spectrum, Forest::clamps>& scratch,
                         const LightcutOptions& options, const Policy& policy) {
+    using S = typename Forest::spectrum;
     const RefinementOptions refinement = refinement_options(forest, options);
     const auto problem_of = [&](std::size_t i, auto& slot) {
         return LightcutProblem<Forest, Receiver<M>, Oracle, Policy>(forest, receivers[i], oracle, policy, options,
@@ -243,14 +243,10 @@ void shade_in_lock_step(const Forest& forest, std::span<const Receiver<M>> recei
     }
     for (bool any = !receivers.empty(); any;) {
         // Step 1: one stream of shadow rays for all receivers.
-        scratch.answers.resize(scratch.queries.size());
-        if (!scratch.queries.empty()) {
-            oracle.many(std::span<const VisibilityQuery>(scratch.queries), std::span(scratch.answers));
-        }
+        auto answers = ask_many(oracle, scratch.queries, answers_for<Oracle, S>(scratch));
         scratch.queries.clear();
         // Step 2: each takes its answers, in the order of its queries, and asks the next.
         any = false;
-        std::span<const float> answers(scratch.answers);
         for (std::size_t i = 0; i < receivers.size(); ++i) {
             auto& slot = scratch.slots[i];
             if (!slot.running) continue;
@@ -281,7 +277,7 @@ void shade(const Lights& lights, std::span<const Receiver<M>> receivers, const O
            const LightcutOptions& options = {}, const Policy& policy = {}) {
     LIGHTCUTS_ASSERT(results.size() >= receivers.size());
     const auto& forest = as_forest(lights);
-    if constexpr (BatchedOracle<Oracle>) {
+    if constexpr (detail::AnswersMany<Oracle, forest_spectrum<Lights>>) {
         detail::shade_in_lock_step(forest, receivers, oracle, results, scratch, options, policy);
     } else {
         detail::shade_one_by_one(forest, receivers, oracle, results, scratch, options, policy);

@@ -9,6 +9,7 @@
 #include "../bound/policy.hpp"
 #include "../core/random.hpp"
 #include "../material/terms.hpp"
+#include "../visibility/lit_side.hpp"
 #include "../visibility/oracle.hpp"
 #include "forest.hpp"
 #include "options.hpp"
@@ -154,17 +155,20 @@ public:
         request(fresh);
         for (node& n : fresh) {
             if (n.queried) {
-                receive(n, forest_.visit(n.kind, [&](const auto& tree) {
+                forest_.visit(n.kind, [&](const auto& tree) {
                     const auto& light = tree.lights()[tree.topology().item(n.representative)];
-                    return static_cast<float>(oracle_(receiver_, light));
-                }));
+                    detail::on_lit_side(receiver_, light, [&](const auto& lit) {
+                        receive(n, detail::as_factor<S>(oracle_(lit, light)));
+                    });
+                });
             }
             add(n, 1.0);
         }
     }
 
     /// Takes the answers to the queries that `fresh` gave rise to, in their order; returns those left over.
-    std::span<const float> receive(std::span<node> fresh, std::span<const float> answers) {
+    template <class A>
+    std::span<const A> receive(std::span<node> fresh, std::span<const A> answers) {
         for (node& n : fresh) {
             if (n.queried) {
                 receive(n, answers.front());
@@ -318,12 +322,12 @@ private:
                 continue;
             }
             ++totals_.queries;
-            if constexpr (BatchedOracle<Oracle>) {
+            if constexpr (detail::AnswersMany<Oracle, S>) {
                 // In place: what is written in pieces is slow to copy at once.
                 VisibilityQuery& query = queries_.emplace_back();
-                query.from = receiver_.shadow_origin;
-                query.receiver = receiver_.id;
                 query.to = lights.place.at(i);
+                query.from = receiver_.shadow_origin_towards(detail::towards<L>(receiver_.position, query.to));
+                query.receiver = receiver_.id;
                 query.light = tree.topology().item(n.representative);
                 query.kind = n.kind;
                 query.distant = DirectionalLight<L>;
@@ -389,15 +393,23 @@ private:
     /// Scales a cluster's bound by what the oracle knows to be the most that is visible of it.
     template <class Cluster>
     void hide(node& n, const Cluster& cluster) const {
-        const auto visible = static_cast<float>(
-            oracle_.upper_bound(receiver_, place_box<typename Cluster::light_type>{cluster.box}));
+        const place_box<typename Cluster::light_type> box{cluster.box};
+        auto visible = static_cast<float>(oracle_.upper_bound(receiver_, box));
+        if constexpr (R::two_sided) {
+            const auto behind = static_cast<float>(oracle_.upper_bound(detail::from_behind(receiver_), box));
+            visible = behind > visible ? behind : visible;
+        }
         if (visible >= 1.0f) return;
         const S fraction = make_spectrum<S>([&](int) { return visible; });
         lower_bound(n, detail::multiply_bounds(n.unit_bound, fraction), cluster);
     }
 
-    void receive(node& n, float visibility) const {
-        if (visibility == 1.0f) return;
+    /// `visibility`: a float or a spectrum
+    template <class A>
+    void receive(node& n, const A& visibility) const {
+        if constexpr (std::same_as<A, float>) {
+            if (visibility == 1.0f) return;
+        }
         n.terms = n.terms * visibility;
         n.estimate = n.estimate * visibility;
     }

@@ -150,9 +150,8 @@ Estimate<typename Forest::spectrum> estimate_draws(const Forest& forest, const R
     }
     Estimate<S> result;
     RadianceSum<S> sum;
-    result.queries = ask(
-        forest, receiver, oracle, scratch, std::span<const Contribution>(scratch.contributions),
-        [&](const Contribution& c, float visibility) { sum.add(c.radiance, static_cast<double>(visibility)); });
+    result.queries = ask(forest, receiver, oracle, scratch, std::span<const Contribution>(scratch.contributions),
+                         [&](const Contribution& c, const auto& visibility) { sum.add_seen(c.radiance, visibility); });
     result.radiance = sum.value();
     return result;
 }

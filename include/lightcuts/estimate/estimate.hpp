@@ -12,6 +12,7 @@
 #include "../cut/forest.hpp"
 #include "../cut/refinement.hpp"
 #include "../material/terms.hpp"
+#include "../visibility/lit_side.hpp"
 #include "../visibility/oracle.hpp"
 #include "importance.hpp"
 
@@ -66,6 +67,7 @@ struct EstimateScratch {
     std::vector<S> clamped;  ///< contributions to which a threshold applies
     std::vector<VisibilityQuery> queries;
     std::vector<float> answers;
+    std::vector<S> tints;  ///< answers that are spectra
 };
 
 namespace detail {
@@ -101,13 +103,22 @@ struct RadianceSum {
             sum[static_cast<std::size_t>(c)] += static_cast<double>(channel(radiance, c)) * weight;
         }
     }
+    /// What an oracle's answer, a float or a spectrum, lets through.
+    template <class A>
+    void add_seen(const S& radiance, const A& visibility) {
+        if constexpr (std::same_as<A, float>) {
+            add(radiance, static_cast<double>(visibility));
+        } else {
+            add(radiance * visibility, 1.0);
+        }
+    }
     S value() const {
         return finite(make_spectrum<S>([this](int c) { return sum[static_cast<std::size_t>(c)]; }));
     }
 };
 
-/// Asks the oracle about `contributions` and calls `take(contribution, visibility)` for each, in order. Returns the
-/// number of questions: none of AlwaysVisible.
+/// Asks the oracle about `contributions` and calls `take(contribution, visibility)` for each, in order; visibility is a
+/// float or a spectrum. Returns the number of questions: none of AlwaysVisible.
 template <class Forest, class M, class Oracle, Spectrum S, class Contribution, class Take>
 std::uint32_t ask(const Forest& forest, const Receiver<M>& receiver, const Oracle& oracle, EstimateScratch<S>& scratch,
                   std::span<const Contribution> contributions, Take&& take) {
@@ -117,27 +128,26 @@ std::uint32_t ask(const Forest& forest, const Receiver<M>& receiver, const Oracl
     if constexpr (std::same_as<Oracle, AlwaysVisible>) {
         for (const Contribution& c : contributions) take(c, 1.0f);
         return 0;
-    } else if constexpr (BatchedOracle<Oracle>) {
+    } else if constexpr (AnswersMany<Oracle, S>) {
         scratch.queries.clear();
         for (const Contribution& c : contributions) {
             forest.visit(c.kind, [&](const auto& tree) {
                 const auto& light = tree.lights()[c.light];
                 using L = typename std::remove_cvref_t<decltype(tree)>::light_type;
-                scratch.queries.push_back(
-                    {receiver.shadow_origin, receiver.id, place_of(light), c.light, c.kind, DirectionalLight<L>});
+                const glm::vec3 place = place_of(light);
+                scratch.queries.push_back({receiver.shadow_origin_towards(towards<L>(receiver.position, place)),
+                                           receiver.id, place, c.light, c.kind, DirectionalLight<L>});
             });
         }
-        scratch.answers.resize(scratch.queries.size());
-        if (!scratch.queries.empty()) {
-            oracle.many(std::span<const VisibilityQuery>(scratch.queries), std::span(scratch.answers));
-        }
-        for (std::size_t i = 0; i < contributions.size(); ++i) take(contributions[i], scratch.answers[i]);
+        const auto answers = ask_many(oracle, scratch.queries, answers_for<Oracle, S>(scratch));
+        for (std::size_t i = 0; i < contributions.size(); ++i) take(contributions[i], answers[i]);
         return static_cast<std::uint32_t>(contributions.size());
     } else {
         for (const Contribution& c : contributions) {
-            take(c, forest.visit(c.kind, [&](const auto& tree) {
-                return static_cast<float>(oracle(receiver, tree.lights()[c.light]));
-            }));
+            forest.visit(c.kind, [&](const auto& tree) {
+                const auto& light = tree.lights()[c.light];
+                on_lit_side(receiver, light, [&](const auto& lit) { take(c, as_factor<S>(oracle(lit, light))); });
+            });
         }
         return static_cast<std::uint32_t>(contributions.size());
     }

@@ -36,11 +36,11 @@ Estimate<forest_spectrum<Lights>> exhaustive(const Lights& lights, const Receive
     const auto flush = [&] {
         result.queries += detail::ask(forest, receiver, oracle, scratch,
                                       std::span<const Contribution>(scratch.contributions),
-                                      [&](const Contribution& c, float visibility) {
+                                      [&](const Contribution& c, const auto& visibility) {
                                           if (clamps) {
                                               scratch.clamped.push_back(c.radiance * visibility);
                                           } else {
-                                              sum.add(c.radiance, static_cast<double>(visibility));
+                                              sum.add_seen(c.radiance, visibility);
                                           }
                                       });
         scratch.contributions.clear();

@@ -76,7 +76,7 @@ Estimate<forest_spectrum<Lights>> power_sampling(const Lights& lights, const Pow
     detail::RadianceSum<S> sum;
     result.queries = detail::ask(
         forest, receiver, oracle, scratch, std::span<const Contribution>(scratch.contributions),
-        [&](const Contribution& c, float visibility) { sum.add(c.radiance, static_cast<double>(visibility)); });
+        [&](const Contribution& c, const auto& visibility) { sum.add_seen(c.radiance, visibility); });
     result.radiance = sum.value();
     return result;
 }

@@ -8,7 +8,7 @@ namespace lightcuts {
 
 /// Adaptive shadow testing [Ward 1994]: sorts the lights by their unshadowed contribution and tests them in falling
 /// order until those that are left could add no more than `threshold` of what was found, then adds the rest scaled
-/// by the visible share so far. Not a bound: the rest may be darker or brighter than that.
+/// by the visible share so far, which is grey. Not a bound: the rest may be darker or brighter than that.
 /// pre: threshold >= 0. cost: linear in the lights, plus a sort, plus the rays tested, in blocks of 16.
 template <TreeOrForest Lights, class M, class Oracle>
 Estimate<forest_spectrum<Lights>> ward(const Lights& lights, const Receiver<M>& receiver, const Oracle& oracle,
@@ -45,10 +45,10 @@ Estimate<forest_spectrum<Lights>> ward(const Lights& lights, const Receiver<M>& 
            scratch.sums[scratch.contributions.size() - left.size()] > static_cast<double>(threshold) * found_sum) {
         const auto tested = left.first(std::min(block, left.size()));
         result.queries += detail::ask(forest, receiver, oracle, scratch, tested,
-                                      [&](const Contribution& c, float visibility) {
-                                          found.add(c.radiance, static_cast<double>(visibility));
+                                      [&](const Contribution& c, const auto& visibility) {
+                                          found.add_seen(c.radiance, visibility);
                                           const double sum = channel_sum(c.radiance);
-                                          found_sum += sum * static_cast<double>(visibility);
+                                          found_sum += channel_sum(S(c.radiance * visibility));
                                           tested_sum += sum;
                                       });
         left = left.subspan(tested.size());

@@ -18,10 +18,7 @@ struct AboveHorizon {
     using Inner = std::remove_cvref_t<M>;
     using S = material_spectrum<Inner>;
 
-    S evaluate(const glm::vec3& to_light) const {
-        return detail::dot(glm::dvec3(geometric_normal), glm::dvec3(to_light)) > 0.0 ? material.evaluate(to_light)
-                                                                                     : S{};
-    }
+    S evaluate(const glm::vec3& to_light) const { return is_above(to_light) ? material.evaluate(to_light) : S{}; }
     void evaluate_many(const LaneVectors& to_lights, LaneSpectra<S>& values) const requires LaneMaterial<Inner> {
         material.evaluate_many(to_lights, values);
         for (int i = 0; i < lane_count; ++i) {
@@ -43,6 +40,11 @@ struct AboveHorizon {
         material.for_each_component([&]<class C>(const C& component) {
             f(AboveHorizon<const C&>{component, geometric_normal});
         });
+    }
+
+    /// True if a light in the direction `to_light`, of any length, can be reflected.
+    bool is_above(const glm::vec3& to_light) const {
+        return detail::dot(glm::dvec3(geometric_normal), glm::dvec3(to_light)) > 0.0;
     }
 
 private:

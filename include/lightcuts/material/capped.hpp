@@ -21,6 +21,9 @@ struct Capped {
         });
     }
     material_spectrum<M> upper_bound(const OffsetBox&) const { return cap; }
+    bool is_behind(const glm::vec3& to_light) const requires TwoSidedMaterial<M> {
+        return material.is_behind(to_light);
+    }
 };
 
 template <class M, class S>

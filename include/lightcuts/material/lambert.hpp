@@ -10,6 +10,7 @@
 namespace lightcuts {
 
 /// Ideal diffuse reflection: albedo / pi * cos. `normal`: unit, on the side of the viewer; `albedo`: in [0, 1].
+/// About the opposite normal, and with a transmittance, diffuse transmission: see ThinSheet.
 template <Spectrum S = glm::vec3>
 struct Lambert {
     glm::vec3 normal;

@@ -85,6 +85,14 @@ concept CompositeMaterial = Material<M> && requires(const M& m, detail::AnyCompo
     m.for_each_component(visit);
 };
 
+/// A material of a thin surface that is lit from both sides: light from behind goes through to the viewer.
+/// `is_behind(to_light)` is true if light from there, a vector of any length, arrives behind the surface itself. Shadow
+/// rays to such lights then start behind it too.
+template <class M>
+concept TwoSidedMaterial = Material<M> && requires(const M& m, const glm::vec3& to_light) {
+    { m.is_behind(to_light) } -> std::same_as<bool>;
+};
+
 /// `evaluate` for the first `count` lanes: by `evaluate_many` if the material has it, part by part if it is composite.
 template <Material M>
 void evaluate_lanes(const M& m, const LaneVectors& to_lights, int count, LaneSpectra<material_spectrum<M>>& values) {

@@ -1,9 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <type_traits>
 #include <utility>
 
 #include <glm/vec3.hpp>
+
+#include "material.hpp"
 
 namespace lightcuts {
 
@@ -18,8 +21,21 @@ struct Receiver {
 
     glm::vec3 position;
     M material;
-    glm::vec3 shadow_origin;  ///< where shadow rays start: the position, moved off the surface
+    glm::vec3 shadow_origin;  ///< where shadow rays start: the position, moved off the surface to the viewer's side
     std::uint32_t id = 0;     ///< goes into queries, and into the hash that draws representatives
+
+    static constexpr bool two_sided = TwoSidedMaterial<std::remove_cvref_t<M>>;
+
+    /// `shadow_origin` mirrored about the position: as far off the surface on its other side.
+    constexpr glm::vec3 shadow_origin_behind() const { return position + (position - shadow_origin); }
+    /// Where a shadow ray along `to_light`, of any length, starts: on the side of a two-sided surface where the light
+    /// is.
+    constexpr glm::vec3 shadow_origin_towards([[maybe_unused]] const glm::vec3& to_light) const {
+        if constexpr (two_sided) {
+            if (material.is_behind(to_light)) return shadow_origin_behind();
+        }
+        return shadow_origin;
+    }
 };
 
 }  // namespace lightcuts

@@ -25,6 +25,13 @@ public:
         rest_.quick_upper_bounds(offsets, others);
         for (std::size_t i = 0; i < bounds.size(); ++i) bounds[i] = bounds[i] + others[i];
     }
+    /// As one of its parts has it.
+    bool is_behind(const glm::vec3& to_light) const requires(TwoSidedMaterial<M> || (TwoSidedMaterial<Ms> || ...)) {
+        bool behind = false;
+        if constexpr (TwoSidedMaterial<M>) behind = first_.is_behind(to_light);
+        if constexpr (TwoSidedMaterial<Sum<Ms...>>) behind = behind || rest_.is_behind(to_light);
+        return behind;
+    }
     /// Calls f(material) for each material that is not itself a composite, in order.
     template <class F>
     void for_each_component(F&& f) const {
@@ -54,6 +61,7 @@ public:
                             LaneSpectra<material_spectrum<M>>& bounds) const requires BoundedMaterial<M> {
         cheapest_upper_bounds(only_, offsets, bounds);
     }
+    bool is_behind(const glm::vec3& to_light) const requires TwoSidedMaterial<M> { return only_.is_behind(to_light); }
     template <class F>
     void for_each_component(F&& f) const {
         if constexpr (CompositeMaterial<M>) {

@@ -47,6 +47,15 @@ concept ParticleScene = requires(const Sc& scene, glm::vec3 v) {
     { scene.scatter(*scene.intersect(v, v), v, v) } -> std::convertible_to<ScatteredParticle<S>>;
 };
 
+/// A scene with thin surfaces that pass light on diffusely, such as leaves. Of a hit there, `position_behind` is as
+/// `position`, off the surface on its other side, and `diffuse_transmittance(hit)`, with `diffuse_albedo` at most 1, is
+/// the share that leaves there. `scatter` then draws from what is transmitted, too.
+template <class Sc, class S>
+concept TransmissiveParticleScene = ParticleScene<Sc, S> && requires(const Sc& scene, glm::vec3 v) {
+    { (*scene.intersect(v, v)).position_behind } -> Vector3;
+    { scene.diffuse_transmittance(*scene.intersect(v, v)) } -> std::convertible_to<S>;
+};
+
 struct ParticleOptions {
     std::size_t lights = 10000;         ///< wanted, over all bounces; about as many are made
     std::uint32_t longest_path = 1000;  ///< surfaces met; what lies beyond is lost
@@ -68,6 +77,30 @@ struct ParticleTally {
     std::vector<OrientedPointLight<S>> lights;
     std::uint64_t landed = 0;
 };
+
+/// Leaves what `power` makes at `hit` to a light, with a chance in proportion: on the side that was hit, or behind it.
+template <class Scene, class Hit, Spectrum S>
+void leave_light(const Scene& scene, const Hit& hit, const S& power, double roulette,
+                 std::vector<OrientedPointLight<S>>& lights) {
+    const S reflected = power * S(scene.diffuse_albedo(hit));
+    const double front = channel_sum(reflected);
+    S transmitted{};
+    if constexpr (TransmissiveParticleScene<Scene, S>) transmitted = power * S(scene.diffuse_transmittance(hit));
+    const double behind = channel_sum(transmitted);
+    const double whole = std::max(front + behind, 1.0);
+    const auto add = [&](const glm::vec3& position, const glm::vec3& normal, const S& leaving, double sum) {
+        const double scale = whole / (std::numbers::pi * sum);
+        lights.push_back({position, normal, S(leaving * static_cast<float>(scale)), {}});
+    };
+    const double drawn = roulette * whole;
+    if (drawn < front) {
+        add(to_vec3(hit.position), to_vec3(hit.normal), reflected, front);
+    } else if (drawn < front + behind) {
+        if constexpr (TransmissiveParticleScene<Scene, S>) {
+            add(to_vec3(hit.position_behind), -to_vec3(hit.normal), transmitted, behind);
+        }
+    }
+}
 
 /// Follows particle `index` and appends its lights.
 template <class Scene, class Emission, NumberSource Numbers>
@@ -96,13 +129,7 @@ void follow(const Scene& scene, const Emission& emission, const Numbers& numbers
             const std::array<double, 4> drawn = four_numbers(4 + 4 * bounce);
             // One number decides on both the light and the way on: each alone is right, and fewer ways end in vain.
             const double roulette = drawn[3];
-            const S reflected = power * S(scene.diffuse_albedo(*hit));
-            const double light_chance = channel_sum(reflected);
-            if (roulette < light_chance) {
-                const double scale = 1.0 / (std::numbers::pi * std::min(light_chance, 1.0));
-                tally.lights.push_back(
-                    {to_vec3((*hit).position), to_vec3((*hit).normal), S(reflected * static_cast<float>(scale)), {}});
-            }
+            leave_light(scene, *hit, power, roulette, tally.lights);
             const auto below_one = [&](std::size_t d) {
                 return std::min(static_cast<float>(drawn[d]), 1.0f - 0x1p-24f);
             };
@@ -149,9 +176,10 @@ ParticleTally<typename Emission::S> follow_all(const Scene& scene, const Emissio
 
 /// Indirect light by instant radiosity [Keller 1997; Lightcuts 2005, section 5]: particles leave the lights in
 /// proportion to their power and scatter through the scene; wherever one meets a surface with a diffuse part, a virtual
-/// oriented light takes over what that part reflects. Russian roulette keeps every particle, and so every light, at
-/// the same power (sum of channels; brighter only where `scatter` returns weights above 1, or a falloff is not 1/d^2).
-/// On average over seeds the lights carry all diffusely reflected light after any number of bounces, caustics included.
+/// oriented light takes over what that part reflects, or one behind it what a leaf lets through. Russian roulette keeps
+/// every particle, and so every light, at the same power (sum of channels; brighter only where `scatter` returns
+/// weights above 1, or a falloff is not 1/d^2). On average over seeds the lights carry all diffusely reflected light
+/// after any number of bounces, caustics included.
 ///
 /// Light profiles are resolved in 512 steps of the angle. A first, smaller set of particles finds how many lights a
 /// particle leaves; `options.lights` then is met within a few per cent.

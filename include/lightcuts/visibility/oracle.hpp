@@ -3,6 +3,7 @@
 #include <concepts>
 #include <span>
 #include <type_traits>
+#include <vector>
 
 #include "../core/box.hpp"
 #include "../light/light.hpp"
@@ -10,11 +11,18 @@
 
 namespace lightcuts {
 
-/// Answers whether `light` reaches `receiver`: `bool`, or the fraction in [0, 1] that gets through.
+namespace detail {
+/// What an oracle may say of one light of spectrum `S`.
+template <class A, class S>
+concept VisibilityAnswer = std::convertible_to<A, float> || std::same_as<std::remove_cvref_t<A>, S>;
+}  // namespace detail
+
+/// Answers whether `light` reaches `receiver`: `bool`, the fraction in [0, 1] that gets through, or such a fraction for
+/// each channel, as a spectrum of the light's type: through coloured glass.
 /// It must be safe to call from several threads if the caller shades on several.
 template <class O, class R, class L>
 concept ScalarOracle = requires(const O& visible, const R& receiver, const L& light) {
-    { visible(receiver, light) } -> std::convertible_to<float>;
+    { visible(receiver, light) } -> detail::VisibilityAnswer<spectrum_of<L>>;
 };
 
 /// Answers many shadow rays at once: `answers[i]` is the fraction in [0, 1] of `queries[i]`. Queries of one call may
@@ -24,9 +32,56 @@ concept BatchedOracle = requires(const O& visible, std::span<const VisibilityQue
     visible.many(queries, answers);
 };
 
-/// What every algorithm asks of visibility: one of the two forms above. Where both exist, `many` is used.
+/// A batched oracle with an answer for each channel: `answers[i]` is a spectrum of fractions in [0, 1].
+template <class O, class S>
+concept TintingOracle = !std::same_as<S, float> &&
+                        requires(const O& visible, std::span<const VisibilityQuery> queries, std::span<S> answers) {
+    visible.many(queries, answers);
+};
+
+/// What every algorithm asks of visibility: one of the forms above. Where several exist, `many` is used, and the one
+/// with spectra.
 template <class O, class R, class L>
-concept VisibilityOracle = ScalarOracle<O, R, L> || BatchedOracle<O>;
+concept VisibilityOracle = ScalarOracle<O, R, L> || BatchedOracle<O> || TintingOracle<O, spectrum_of<L>>;
+
+namespace detail {
+
+template <class O, class S>
+concept AnswersMany = BatchedOracle<O> || TintingOracle<O, S>;
+
+/// What `many` answers about lights of spectrum `S`.
+template <class O, class S>
+using many_answer = std::conditional_t<TintingOracle<O, S>, S, float>;
+
+/// A single answer as what light is multiplied by: a float or a spectrum.
+template <class S, class A>
+constexpr auto as_factor(const A& answer) {
+    if constexpr (std::same_as<A, S>) {
+        return answer;
+    } else {
+        return static_cast<float>(answer);
+    }
+}
+
+/// Where a scratch keeps what `many` answers.
+template <class O, class S, class Scratch>
+std::vector<many_answer<O, S>>& answers_for(Scratch& scratch) {
+    if constexpr (TintingOracle<O, S>) {
+        return scratch.tints;
+    } else {
+        return scratch.answers;
+    }
+}
+
+/// The answers to `queries`, in their order; `answers` is storage.
+template <class O, class A>
+std::span<const A> ask_many(const O& oracle, std::span<const VisibilityQuery> queries, std::vector<A>& answers) {
+    answers.resize(queries.size());
+    if (!queries.empty()) oracle.many(queries, std::span(answers));
+    return answers;
+}
+
+}  // namespace detail
 
 /// Unit directions towards distant lights, as opposed to positions.
 struct DirectionBox {
@@ -38,9 +93,9 @@ template <class L>
 using place_box = std::conditional_t<DirectionalLight<L>, DirectionBox, Box>;
 
 /// An oracle that also says of a whole cluster how much can be visible of it: `upper_bound(receiver, box)`, no light in
-/// `box` is visible by a larger fraction. `box` is a Box of positions for point lights, a DirectionBox for directional
-/// ones; a cut makes use of the one it finds. Asked before a cluster is split: what is certainly hidden is never
-/// refined. It pays where a shadow ray is much dearer than this bound, or where much is hidden.
+/// `box` is visible by a larger fraction, in any channel. `box` is a Box of positions for point lights, a DirectionBox
+/// for directional ones; a cut makes use of the one it finds. Asked before a cluster is split: what is certainly hidden
+/// is never refined. It pays where a shadow ray is much dearer than this bound, or where much is hidden.
 template <class O, class R, class L>
 concept BoundedOracle = requires(const O& visible, const R& receiver, const place_box<L>& box) {
     { visible.upper_bound(receiver, box) } -> std::convertible_to<float>;

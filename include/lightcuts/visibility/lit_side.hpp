@@ -1,0 +1,33 @@
+#pragma once
+
+#include "../light/incidence.hpp"
+#include "../material/receiver.hpp"
+
+namespace lightcuts::detail {
+
+/// Towards the light at `place`: not of unit length unless it is distant.
+template <Light L>
+constexpr glm::vec3 towards(const glm::vec3& receiver, const glm::vec3& place) {
+    return DirectionalLight<L> ? place : place - receiver;
+}
+
+/// The receiver as seen from behind: its shadow rays start there.
+template <class M>
+constexpr Receiver<M> from_behind(Receiver<M> receiver) {
+    receiver.shadow_origin = receiver.shadow_origin_behind();
+    return receiver;
+}
+
+/// Calls `ask(receiver)` with the receiver whose shadow rays start on the side where `light` is: the receiver itself,
+/// and a copy if it is two-sided and the light behind it. So oracles need not know of either.
+template <class M, Light L, class F>
+constexpr decltype(auto) on_lit_side(const Receiver<M>& receiver, [[maybe_unused]] const L& light, F&& ask) {
+    if constexpr (Receiver<M>::two_sided) {
+        if (receiver.material.is_behind(towards<L>(receiver.position, place_of(light)))) {
+            return ask(from_behind(receiver));
+        }
+    }
+    return ask(receiver);
+}
+
+}  // namespace lightcuts::detail
