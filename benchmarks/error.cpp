@@ -34,7 +34,7 @@ struct SingleRays {
 
 template <class Oracle>
 void shade(const Workload& work, const Oracle& oracle, std::span<lightcuts::CutResult<glm::vec3>> results) {
-    static lightcuts::LightcutScratch<glm::vec3> scratch;
+    static lightcuts::scratch_of<Forest> scratch;
     for_each_group(work.receivers(), [&](std::span<const Receiver> group) {
         lightcuts::shade(work.forest(), group, oracle, results.first(group.size()), scratch);
         results = results.subspan(group.size());

@@ -65,7 +65,7 @@ struct Sums {
 
 template <class Oracle, class Policy = lightcuts::TwoStageBounds>
 Sums shade_all(const Workload& work, const Oracle& oracle, const Policy& policy = {}) {
-    static lightcuts::LightcutScratch<glm::vec3> scratch;
+    static lightcuts::scratch_of<Forest> scratch;
     static std::vector<CutResult<glm::vec3>> results(group_size);
     Sums sums;
     for_each_group(work.receivers(), [&](std::span<const Receiver> group) {

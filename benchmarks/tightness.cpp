@@ -68,7 +68,7 @@ Row measure(const std::string& scene, std::uint32_t area_points, int width, int 
     const lightcuts::EmbreeOracle oracle = work.oracle();
     lightcuts::LightcutOptions options;
     options.max_cut = max_cut;
-    lightcuts::LightcutScratch<glm::vec3> scratch;
+    lightcuts::scratch_of<Forest> scratch;
     const auto cut_size = [&](const Receiver& receiver, const auto& policy) {
         lightcuts::CutResult<glm::vec3> result;
         lightcuts::shade(work.forest(), std::span(&receiver, 1), oracle, std::span(&result, 1), scratch, options,

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "options.hpp"
+#include "scene.hpp"
+#include "surface_lobes.hpp"
+
+namespace render {
+
+/// Reads `options.scene` and lights it as the options say: by a table, emissive surfaces, spheres, a map, sun and sky.
+/// Indirect light is added to the result by add_virtual_lights, which takes rays.
+/// throws: invalid_input for a file that cannot be used, or if there is no light.
+Scene prepare_scene(const Options& options);
+
+Shade shade_of(const Options& options);
+
+}  // namespace render
