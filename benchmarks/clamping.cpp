@@ -22,10 +22,12 @@ using Virtual = lightcuts::VirtualLight<>;
 /// The oriented lights of a workload.
 std::vector<Direct> oriented_lights(const Workload& work) {
     std::vector<Direct> lights;
-    work.forest().for_each([&](std::uint32_t, const auto& tree) {
-        if constexpr (std::same_as<typename std::remove_cvref_t<decltype(tree)>::light_type, Direct>) {
-            lights.assign(tree.lights().begin(), tree.lights().end());
-        }
+    work.visit([&](const auto& forest) {
+        forest.for_each([&](std::uint32_t, const auto& tree) {
+            if constexpr (std::same_as<typename std::remove_cvref_t<decltype(tree)>::light_type, Direct>) {
+                lights.assign(tree.lights().begin(), tree.lights().end());
+            }
+        });
     });
     return lights;
 }
@@ -38,7 +40,7 @@ template <class Tree>
 Sums shade_all(const Workload& work, const Tree& tree, const ClampOptions& clamp) {
     static lightcuts::scratch_of<Tree> scratch;
     static std::vector<CutResult<glm::vec3>> results(group_size);
-    const lightcuts::EmbreeOracle oracle = work.oracle();
+    const render::OpaqueOracle oracle = work.oracle();
     Sums sums;
     for_each_group(work.receivers(), [&](std::span<const Receiver> group) {
         const auto out = std::span(results).first(group.size());
@@ -74,7 +76,7 @@ int main(int argc, char** argv) {
     nlohmann::json rows = nlohmann::json::array();
     std::printf("%-36s %-16s %8s %8s %12s %10s\n", "scene", "clamping", "cut", "rays", "/ unmarked", "/ off");
     for (const std::string& scene : scenes) {
-        const Workload work(scene, 64, width, height);
+        const Workload work(scene, width, height);
         const std::vector<Direct> direct = oriented_lights(work);
         std::vector<Virtual> marked(direct.size());
         for (std::size_t i = 0; i < direct.size(); ++i) marked[i] = {direct[i]};

@@ -18,13 +18,12 @@
 namespace {
 
 using namespace benchmark;
-using lightcuts::EmbreeOracle;
 
-constexpr const char* scene = "builtin:hall";
+std::string hall(std::uint32_t area_points) { return "builtin:hall?area-points=" + std::to_string(area_points); }
 
 /// Traces shadow rays one by one.
 struct SingleRays {
-    EmbreeOracle oracle;
+    render::OpaqueOracle oracle;
 
     template <class R, class L>
     bool operator()(const R& receiver, const L& light) const {
@@ -34,10 +33,12 @@ struct SingleRays {
 
 template <class Oracle>
 void shade(const Workload& work, const Oracle& oracle, std::span<lightcuts::CutResult<glm::vec3>> results) {
-    static lightcuts::LightcutScratch<glm::vec3> scratch;
-    for_each_group(work.receivers(), [&](std::span<const Receiver> group) {
-        lightcuts::shade(work.forest(), group, oracle, results.first(group.size()), scratch);
-        results = results.subspan(group.size());
+    work.visit([&]<class Forest>(const Forest& forest) {
+        static lightcuts::scratch_of<Forest> scratch;
+        for_each_group(work.receivers(), [&](std::span<const Receiver> group) {
+            lightcuts::shade(forest, group, oracle, results.first(group.size()), scratch, {.clamp = work.clamp()});
+            results = results.subspan(group.size());
+        });
     });
 }
 
@@ -52,8 +53,7 @@ render::Picture reference(const Workload& work) {
         threads.emplace_back([&, t] {
             lightcuts::EstimateScratch<glm::vec3> scratch;
             for (std::size_t i = t; i < picture.size(); i += count) {
-                picture.pixels[i] = lightcuts::exhaustive(work.forest(), work.receivers()[i], work.oracle(), scratch)
-                                        .radiance;
+                picture.pixels[i] = exhaustive_sum(work, work.receivers()[i], work.oracle(), scratch);
             }
         });
     }
@@ -65,7 +65,7 @@ nlohmann::json measure_error(int width, int height) {
     std::printf("%8s %8s %8s %10s %10s %10s\n", "lights", "points", "cut", "rel. RMSE", "99.9th", "largest");
     nlohmann::json rows = nlohmann::json::array();
     for (const std::uint32_t area_points : {64u, 256u}) {
-        const Workload work(scene, area_points, width, height);
+        const Workload work(hall(area_points), width, height);
         std::vector<lightcuts::CutResult<glm::vec3>> results(work.receivers().size());
         shade(work, work.oracle(), std::span(results));
         render::Picture picture = blank(work);
@@ -89,7 +89,7 @@ nlohmann::json measure_error(int width, int height) {
 }
 
 nlohmann::json measure_growth(int width, int height, int runs) {
-    const Workload few(scene, 256, width, height), many(scene, 4096, width, height);
+    const Workload few(hall(256), width, height), many(hall(4096), width, height);
     std::vector<lightcuts::CutResult<glm::vec3>> results(few.receivers().size());
     std::vector<double> few_times, many_times, ratios;
     for (int run = 0; run < runs; ++run) {
@@ -126,13 +126,13 @@ nlohmann::json measure_crossing(int width, int height, int runs) {
     std::printf("%8s | %9s %10s | %9s %10s | %9s %11s %9s\n", "lights", "streams", "single", "streams", "single",
                 names[0], names[1], names[2]);
     for (const std::uint32_t area_points : {1u, 2u, 4u, 8u, 16u}) {
-        const Workload work(scene, area_points, width, height);
+        const Workload work(hall(area_points), width, height);
         std::vector<lightcuts::CutResult<glm::vec3>> results(work.receivers().size());
-        const EmbreeOracle streams = work.oracle();
+        const render::OpaqueOracle streams = work.oracle();
         const SingleRays single{streams};
         lightcuts::EstimateScratch<glm::vec3> scratch;
         const auto sum_all = [&](const auto& oracle) {
-            for (const Receiver& r : work.receivers()) lightcuts::exhaustive(work.forest(), r, oracle, scratch);
+            for (const Receiver& r : work.receivers()) exhaustive_sum(work, r, oracle, scratch);
         };
         std::array<std::vector<double>, 4> times;
         for (int run = 0; run < runs; ++run) {

@@ -143,7 +143,9 @@ void write(const Report& report, const Arguments& arguments) {
 void run(const Arguments& arguments) {
     render::require_writable(arguments.output / "error_vs_time.html");
     const std::vector<ReportScene> scenes = load_report_scenes(arguments.scenes);
-    StatusLine status(scenes.size() * setting_count(arguments.measurement));
+    std::size_t settings = 0;
+    for (const ReportScene& scene : scenes) settings += setting_count(scene, arguments.measurement);
+    StatusLine status(settings);
     Report report{this_machine(), arguments.measurement, {}};
     print_header();
     for (const ReportScene& scene : scenes) {
@@ -167,12 +169,14 @@ int main(int argc, char** argv) {
     Arguments arguments;
     CLI::App app{"Error against run time of all methods, as CSV, JSON and one HTML page"};
     const CLI::Range sides(1, 1 << 14);
-    app.add_option("--scene", arguments.scenes.scenes,
-                   "glTF or OBJ file, seen by the cameras of the scene.json beside it, or builtin:NAME; repeatable "
-                   "(all built-ins)");
+    app.add_option(
+        "--scene", arguments.scenes.scenes,
+        "glTF or OBJ file, seen by the cameras of the scene.json beside it, or builtin:NAME, and ?KEY=VALUE&... "
+        "for its lights; repeatable (all built-ins)");
     app.add_option("--width", arguments.scenes.width, "of the pictures, pixels (as 160x90)")->check(sides);
     app.add_option("--height", arguments.scenes.height, "of the pictures, pixels")->check(sides);
-    app.add_option("--area-points", arguments.scenes.area_points, "lights per emissive surface (64)");
+    app.add_option("--area-points", arguments.scenes.area_points,
+                   "lights per emissive surface where a scene does not say (64)");
     app.add_option("--runs", arguments.measurement.runs, "medians are over this odd number (3)")
         ->check(CLI::PositiveNumber);
     app.add_option("--threads", arguments.measurement.threads, "of rendering; seconds are summed over them (1)")

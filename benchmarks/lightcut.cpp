@@ -3,10 +3,10 @@
 
 #include <cstdio>
 #include <cstring>
+#include <exception>
 #include <fstream>
 
 #include <CLI/CLI.hpp>
-#include <lightcuts/estimate/exhaustive.hpp>
 #include <nlohmann/json.hpp>
 
 #include "workload.hpp"
@@ -15,12 +15,11 @@ namespace {
 
 using namespace benchmark;
 using lightcuts::CutResult;
-using lightcuts::EmbreeOracle;
 using lightcuts::VisibilityQuery;
 
 /// Remembers the queries of an oracle and how they came in batches.
 struct RecordingOracle {
-    const EmbreeOracle& oracle;
+    const render::OpaqueOracle& oracle;
     std::vector<VisibilityQuery>& queries;
     std::vector<std::size_t>& batch_ends;
 
@@ -65,24 +64,25 @@ struct Sums {
 
 template <class Oracle, class Policy = lightcuts::TwoStageBounds>
 Sums shade_all(const Workload& work, const Oracle& oracle, const Policy& policy = {}) {
-    static lightcuts::LightcutScratch<glm::vec3> scratch;
     static std::vector<CutResult<glm::vec3>> results(group_size);
     Sums sums;
-    for_each_group(work.receivers(), [&](std::span<const Receiver> group) {
-        const auto out = std::span(results).first(group.size());
-        lightcuts::shade(work.forest(), group, oracle, out, scratch, {}, policy);
-        for (const auto& r : out) {
-            sums.nodes += r.cut_size;
-            sums.queries += r.queries;
-        }
+    work.visit([&]<class Forest>(const Forest& forest) {
+        static lightcuts::scratch_of<Forest> scratch;
+        for_each_group(work.receivers(), [&](std::span<const Receiver> group) {
+            const auto out = std::span(results).first(group.size());
+            lightcuts::shade(forest, group, oracle, out, scratch, {.clamp = work.clamp()}, policy);
+            for (const auto& r : out) {
+                sums.nodes += r.cut_size;
+                sums.queries += r.queries;
+            }
+        });
     });
     return sums;
 }
 
-Row measure(const std::string& scene, std::uint32_t area_points, int width, int height, int runs,
-            std::size_t exhaustive_receivers) {
-    const Workload work(scene, area_points, width, height);
-    const EmbreeOracle oracle = work.oracle();
+Row measure(const std::string& scene, int width, int height, int runs, std::size_t exhaustive_receivers) {
+    const Workload work(scene, width, height);
+    const render::OpaqueOracle oracle = work.oracle();
     Row row;
     row.scene = scene;
     row.lights = work.light_count();
@@ -149,7 +149,7 @@ Row measure(const std::string& scene, std::uint32_t area_points, int width, int 
         std::size_t shaded = 0;
         row.exhaustive_seconds = seconds([&] {
             for (std::size_t i = 0; i < row.receivers; i += stride, ++shaded) {
-                lightcuts::exhaustive(work.forest(), work.receivers()[i], oracle, scratch);
+                exhaustive_sum(work, work.receivers()[i], oracle, scratch);
             }
         });
         row.exhaustive_seconds *= count / static_cast<double>(shaded);
@@ -181,48 +181,49 @@ int main(int argc, char** argv) {
     std::string only;
     int width = 96, height = 72, runs = 3;
     std::size_t exhaustive_receivers = 30;
+    std::vector<std::string> scenes{"builtin:hall?area-points=1",
+                                    "builtin:hall?area-points=4",
+                                    "builtin:hall?area-points=8",
+                                    "builtin:hall?area-points=16",
+                                    "builtin:hall?area-points=64",
+                                    "builtin:hall?area-points=256",
+                                    "builtin:hall?area-points=1024",
+                                    "builtin:hall?area-points=4096",
+                                    "builtin:hall?area-points=64&indirect=100000",
+                                    "builtin:omni?lights=3000",
+                                    "builtin:omni?lights=30000",
+                                    "builtin:omni?lights=300000",
+                                    "builtin:directional?lights=3000",
+                                    "builtin:directional?lights=30000",
+                                    "builtin:directional?lights=300000",
+                                    "builtin:surfaces?lights=3000",
+                                    "builtin:surfaces?lights=30000",
+                                    "builtin:surfaces?lights=300000",
+                                    "builtin:surfaces?lights=30000&rotated=0"};
     CLI::App app{"Time of lightcuts against the time of tracing the same shadow rays"};
+    app.add_option("scenes", scenes, "files or builtin:NAME, and ?KEY=VALUE&... for their lights");
     app.add_option("--only", only, "measure only scenes whose name contains this");
     app.add_option("--width", width, "of the picture, pixels");
     app.add_option("--height", height, "of the picture, pixels");
     app.add_option("--runs", runs, "medians are over this many")->check(CLI::PositiveNumber);
     app.add_option("--exhaustive", exhaustive_receivers, "points for the exhaustive sum; 0: none");
     CLI11_PARSE(app, argc, argv);
-
-    struct Case {
-        const char* scene;
-        std::uint32_t area_points;
-    };
-    const std::vector<Case> cases = {{"builtin:hall", 1},
-                                     {"builtin:hall", 4},
-                                     {"builtin:hall", 8},
-                                     {"builtin:hall", 16},
-                                     {"builtin:hall", 64},
-                                     {"builtin:hall", 256},
-                                     {"builtin:hall", 1024},
-                                     {"builtin:hall", 4096},
-                                     {"builtin:omni?lights=3000", 0},
-                                     {"builtin:omni?lights=30000", 0},
-                                     {"builtin:omni?lights=300000", 0},
-                                     {"builtin:directional?lights=3000", 0},
-                                     {"builtin:directional?lights=30000", 0},
-                                     {"builtin:directional?lights=300000", 0},
-                                     {"builtin:surfaces?lights=3000", 0},
-                                     {"builtin:surfaces?lights=30000", 0},
-                                     {"builtin:surfaces?lights=300000", 0},
-                                     {"builtin:surfaces?lights=30000&rotated=0", 0}};
-    nlohmann::json rows = nlohmann::json::array();
-    std::printf("%-42s %8s %7s %7s %7s %7s %7s %7s %8s %8s %9s\n", "scene", "lights", "cut", "rays", "quick", "tight",
-                "/rays", "stream", "ns/ray", "ns/node", "/exhaust.");
-    for (const Case& c : cases) {
-        const std::string name = std::string(c.scene) + (c.area_points > 0 ? " x" + std::to_string(c.area_points) : "");
-        if (name.find(only) == std::string::npos) continue;
-        const Row r = measure(c.scene, c.area_points, width, height, runs, exhaustive_receivers);
-        std::printf("%-42s %8zu %7.1f %7.1f %7.1f %7.1f %7.3f %7.3f %8.0f %8.0f %9.2f\n", name.c_str(), r.lights,
-                    r.cut_size, r.rays, r.quick_bounds, r.tight_bounds, r.ratio, r.stream_ratio, r.ns_per_ray,
-                    r.ns_per_node_outside, r.exhaustive_ratio);
-        std::fflush(stdout);
-        rows.push_back(to_json(r));
+    try {
+        nlohmann::json rows = nlohmann::json::array();
+        std::printf("%-44s %8s %7s %7s %7s %7s %7s %7s %8s %8s %9s\n", "scene", "lights", "cut", "rays", "quick",
+                    "tight", "/rays", "stream", "ns/ray", "ns/node", "/exhaust.");
+        for (const std::string& name : scenes) {
+            if (name.find(only) == std::string::npos) continue;
+            const Row r = measure(name, width, height, runs, exhaustive_receivers);
+            std::printf("%-44s %8zu %7.1f %7.1f %7.1f %7.1f %7.3f %7.3f %8.0f %8.0f %9.2f\n", name.c_str(), r.lights,
+                        r.cut_size, r.rays, r.quick_bounds, r.tight_bounds, r.ratio, r.stream_ratio, r.ns_per_ray,
+                        r.ns_per_node_outside, r.exhaustive_ratio);
+            std::fflush(stdout);
+            rows.push_back(to_json(r));
+        }
+        std::ofstream("lightcut.json") << rows.dump(2) << "\n";
+    } catch (const std::exception& e) {
+        std::fprintf(stderr, "bench-lightcut: %s\n", e.what());
+        return 1;
     }
-    std::ofstream("lightcut.json") << rows.dump(2) << "\n";
 }

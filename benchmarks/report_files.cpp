@@ -26,7 +26,7 @@ std::string quoted(const std::string& text) {
 std::string csv_row(const ReportScene& scene, const std::string& method, const std::string& parameter,
                     const std::string& value, const Measurement& m) {
     std::ostringstream row;
-    row << quoted(scene.name) << "," << scene.width << "," << scene.height << "," << scene.light_count() << ","
+    row << quoted(scene.name) << "," << scene.width << "," << scene.height << "," << scene.scene->light_count() << ","
         << quoted(method) << "," << quoted(parameter) << "," << value << "," << m.seconds << "," << m.prepare_seconds
         << "," << m.runs << "," << m.rays_per_pixel << "," << m.cut_size;
     const render::ErrorFigures& e = m.error;
@@ -97,6 +97,7 @@ std::string to_csv(const Report& report) {
         "cut_size,relative_rmse,relative_l1,relative_bias,max_relative,p999_relative,max_step,p999_step\n";
     for (const SceneMeasurement& scene : report.scenes) {
         csv += csv_row(scene.scene, "exhaustive", "", "", scene.exhaustive);
+        if (scene.unclamped) csv += csv_row(scene.scene, "exhaustive, not clamped", "", "", *scene.unclamped);
         for (const Curve& curve : scene.curves) {
             for (const Measurement& m : curve.points) {
                 csv += csv_row(scene.scene, curve.method->name, curve.method->parameter, as_text(m.value), m);
@@ -123,8 +124,9 @@ Json to_json(const Report& report) {
         entry["name"] = scene.name;
         entry["size"] = {scene.width, scene.height};
         entry["triangles"] = scene.scene->triangles.size();
-        entry["lights"] = scene.light_count();
+        entry["lights"] = scene.scene->light_count();
         entry["exhaustive"] = measurement_json(measured.exhaustive);
+        if (measured.unclamped) entry["exhaustive_not_clamped"] = measurement_json(*measured.unclamped);
         for (const Curve& curve : measured.curves) entry["curves"].push_back(curve_json(curve));
         entry["equal_time"] = equal_time_json(measured);
         json["scenes"].push_back(entry);

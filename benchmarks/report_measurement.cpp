@@ -8,6 +8,7 @@
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include "prepare_scene.hpp"
 #include "ray_scene.hpp"
 #include "render_loop.hpp"
 #include "shader.hpp"
@@ -63,10 +64,7 @@ class SceneRenderer {
 public:
     SceneRenderer(const ReportScene& scene, const MeasurementOptions& options)
         : scene_(*scene.scene), runs_(options.runs), rays_(scene_), view_(scene.camera, scene.width, scene.height),
-          surfaces_(scene_, rays_, render::Shade::full) {
-        usual_.width = scene.width;
-        usual_.height = scene.height;
-        usual_.quiet = true;
+          surfaces_(scene_, rays_, render::shade_of(scene.options)), usual_(scene.options) {
         emitted_ = render::render_picture(view_, surfaces_, BlackShader(), usual_).picture;
         for (render::Material& material : scene_.materials) material.emission = glm::vec3(0.0f);
         usual_.aovs = {"cut_size"};
@@ -74,7 +72,7 @@ public:
 
     const render::Picture& emitted() const { return emitted_; }
 
-    /// As the renderer would be without options.
+    /// As the renderer would be without options but the scene's.
     render::Options usual() const { return usual_; }
 
     Measurement run(const render::Options& options) const {
@@ -107,6 +105,11 @@ private:
     render::Picture emitted_;
 };
 
+/// True if clamping makes another picture of the scene.
+bool has_two_references(const ReportScene& scene) {
+    return !scene.scene->virtual_lights.empty() && scene.options.clamp.has_threshold();
+}
+
 std::vector<double> values_of(const ReportMethod& method, const MeasurementOptions& options) {
     std::vector<double> values;
     const std::size_t step = options.quick && method.values.size() > 1 ? 2 : 1;
@@ -116,8 +119,14 @@ std::vector<double> values_of(const ReportMethod& method, const MeasurementOptio
 
 }  // namespace
 
-std::size_t setting_count(const MeasurementOptions& options) {
-    std::size_t count = 1;
+const Measurement& SceneMeasurement::reference_of(const ReportMethod& method) const {
+    render::Options options = scene.options;
+    options.method = method.method;
+    return unclamped && !options.clamping().has_threshold() ? *unclamped : exhaustive;
+}
+
+std::size_t setting_count(const ReportScene& scene, const MeasurementOptions& options) {
+    std::size_t count = has_two_references(scene) ? 2 : 1;
     for (const ReportMethod& method : report_methods()) count += values_of(method, options).size();
     return count;
 }
@@ -136,6 +145,11 @@ SceneMeasurement measure(const ReportScene& scene, const MeasurementOptions& opt
         render::Options exhaustive = renderer.usual();
         exhaustive.method = "exhaustive";
         result.exhaustive = renderer.run(exhaustive);
+        if (has_two_references(scene)) {
+            start("exhaustive, not clamped");
+            exhaustive.clamp = {};
+            result.unclamped = renderer.run(exhaustive);
+        }
         for (const ReportMethod& method : report_methods()) {
             Curve& curve = result.curves.emplace_back();
             curve.method = &method;
@@ -146,7 +160,7 @@ SceneMeasurement measure(const ReportScene& scene, const MeasurementOptions& opt
                 method.set(chosen, value);
                 Measurement& point = curve.points.emplace_back(renderer.run(chosen));
                 point.value = value;
-                point.error = render::compare(point.picture, result.exhaustive.picture);
+                point.error = render::compare(point.picture, result.reference_of(method).picture);
             }
         }
     });

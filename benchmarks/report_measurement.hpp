@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,8 +33,13 @@ struct Curve {
 struct SceneMeasurement {
     ReportScene scene;
     render::Picture emitted;  ///< what is seen of the emitters themselves
-    Measurement exhaustive;   ///< the reference
+    Measurement exhaustive;   ///< the reference, with virtual lights clamped as by lightcuts
+    /// The same without clamping, where that makes a difference.
+    std::optional<Measurement> unclamped;
     std::vector<Curve> curves;
+
+    /// What a picture by `method` would be without error: a method that does not clamp has the reference that does not.
+    const Measurement& reference_of(const ReportMethod& method) const;
 };
 
 struct MeasurementOptions {
@@ -43,7 +49,7 @@ struct MeasurementOptions {
 };
 
 /// Settings of a scene that `measure` visits.
-std::size_t setting_count(const MeasurementOptions& options);
+std::size_t setting_count(const ReportScene& scene, const MeasurementOptions& options);
 
 /// Measures all methods. `start` is called with a description before each setting.
 /// Only the method's own work is timed, not eye rays, which are the same for all. What takes seconds is run once.

@@ -29,6 +29,7 @@ svg { max-width: 100%; height: auto; }
 
 constexpr const char* explanation = R"(<p>Times are processor seconds of a method's own work, summed over threads:
 eye rays, which are the same for all, and building trees are not in them. Errors are against the exhaustive sum, and of reflected light: emitters in view are left out.
+Lightcuts clamp virtual lights, and so does their exhaustive sum; methods that do not are compared with the sum that does not.
 A curve has one point for each value of its method's parameter; errors below 0.01&nbsp;% are drawn at 0.01&nbsp;%.
 Steps are differences of luminance between neighbouring pixels that the reference does not have, relative to the
 brighter of the two. Of methods without clusters, the cut size is the number of lights that are tested.</p>
@@ -97,6 +98,7 @@ std::string figures_table(const SceneMeasurement& scene) {
                    "relative L1", "99.9th percentile", "worst step", "steps, 99.9th"},
                   "th");
     html += cells(figures_row("exhaustive", "", scene.exhaustive));
+    if (scene.unclamped) html += cells(figures_row("exhaustive, not clamped", "", *scene.unclamped));
     for (const Curve& curve : scene.curves) {
         for (const Measurement& m : curve.points) {
             html += cells(figures_row(curve.method->name, as_text(m.value), m));
@@ -119,7 +121,7 @@ std::string plots(const SceneMeasurement& scene) {
 
 std::string section(const SceneMeasurement& measured) {
     const ReportScene& scene = measured.scene;
-    return "<h2>" + escaped(scene.name) + "</h2>\n<p>" + std::to_string(scene.light_count()) + " lights, " +
+    return "<h2>" + escaped(scene.name) + "</h2>\n<p>" + std::to_string(scene.scene->light_count()) + " lights, " +
            std::to_string(scene.scene->triangles.size()) + " triangles, " + std::to_string(scene.width) + " x " +
            std::to_string(scene.height) + " pixels.</p>\n" + plots(measured) + pictures_html(measured) +
            figures_table(measured);

@@ -111,7 +111,8 @@ std::string pictures_html(const SceneMeasurement& scene) {
         std::snprintf(caption, sizeof caption, "%s, %s %s: %.3g s, relative RMSE %.3g %%", method.name,
                       method.parameter, as_text(m.value).c_str(), m.seconds, 100.0 * m.error.relative_rmse);
         html += "<div>" + figure(m.picture, tone_mapped(seen(m.picture), curve), caption);
-        html += figure(m.picture, tone_mapped(difference(m.picture, reference, 16.0f), curve), "16 x difference");
+        html += figure(m.picture, tone_mapped(difference(m.picture, scene.reference_of(method).picture, 16.0f), curve),
+                       "16 x difference");
         html += cut_size_map(m) + "</div>\n";
     }
     return html;

@@ -6,12 +6,12 @@
 
 #include <lightcuts/core/invalid_input.hpp>
 
-#include "emitters.hpp"
+#include "indirect.hpp"
 #include "load_scene.hpp"
-#include "options.hpp"
+#include "prepare_scene.hpp"
+#include "ray_scene.hpp"
+#include "scene_options.hpp"
 #include "scene_sheet.hpp"
-#include "surroundings.hpp"
-#include "validate.hpp"
 #include "view.hpp"
 
 namespace benchmark {
@@ -24,28 +24,34 @@ constexpr int usual_height = 9;
 
 bool is_builtin(const std::string& scene) { return scene.starts_with("builtin:"); }
 
-std::shared_ptr<const render::Scene> load(const std::string& name, std::uint32_t area_points) {
-    auto scene = std::make_shared<render::Scene>(render::load_scene(name));
-    render::add_emitter_lights(*scene, area_points);
-    render::Options usual;
-    render::add_surroundings(*scene, usual);
-    render::require_lights(*scene);
-    if (scene->omni.empty() && scene->oriented.empty() && scene->spots.empty() && scene->directional.empty()) {
-        throw lightcuts::invalid_input(name + ": all lights are black; leave the scene out");
+std::shared_ptr<const render::Scene> load(render::Options& options) {
+    auto scene = std::make_shared<render::Scene>(render::prepare_scene(options));
+    if (options.indirect > 0) {
+        const render::RayScene rays(*scene);
+        render::add_virtual_lights(*scene, rays, options.indirect, render::shade_of(options), options.seed);
+    }
+    if (scene->light_count() == 0) {
+        throw lightcuts::invalid_input(options.scene + ": all lights are black; leave the scene out");
     }
     return scene;
 }
 
-std::vector<render::SheetCamera> cameras_of(const std::string& name, const render::Scene& scene) {
-    if (!is_builtin(name)) {
-        if (auto sheet = render::sheet_beside(name)) return sheet->cameras;
+std::vector<render::SheetCamera> cameras_of(const std::string& file, const render::Scene& scene) {
+    if (!is_builtin(file)) {
+        if (auto sheet = render::sheet_beside(file)) return sheet->cameras;
     }
     if (scene.cameras.empty()) {
-        throw lightcuts::invalid_input(name + ": the scene has no camera; put a scene.json with cameras beside it");
+        throw lightcuts::invalid_input(file + ": the scene has no camera; put a scene.json with cameras beside it");
     }
     const render::Camera& camera = scene.cameras.front();
-    render::require_usable(camera, name + ": camera '" + camera.name + "'");
+    render::require_usable(camera, file + ": camera '" + camera.name + "'");
     return {{camera, usual_width, usual_height}};
+}
+
+/// A file's without its folders and extension, and the options that `text` has besides.
+std::string short_name(const std::string& text, const std::string& file) {
+    if (is_builtin(text)) return text;
+    return std::filesystem::path(file).stem().string() + text.substr(file.size());
 }
 
 /// Sets the size of the picture: what was asked for, the rest in the proportions of the camera's own.
@@ -63,10 +69,6 @@ void set_size(ReportScene& scene, const render::SheetCamera& camera, const Repor
 
 }  // namespace
 
-std::size_t ReportScene::light_count() const {
-    return scene->omni.size() + scene->oriented.size() + scene->spots.size() + scene->directional.size();
-}
-
 std::vector<std::string> builtin_report_scenes() {
     std::vector<std::string> scenes;
     for (const std::string& name : render::builtin_names()) {
@@ -74,6 +76,7 @@ std::vector<std::string> builtin_report_scenes() {
         const bool counted = name == "directional" || name == "surfaces";
         scenes.push_back("builtin:" + name + (counted ? "?lights=10000" : ""));
     }
+    scenes.push_back("builtin:hall?indirect=10000");
     scenes.push_back("builtin:omni?lights=64");
     return scenes;
 }
@@ -81,16 +84,21 @@ std::vector<std::string> builtin_report_scenes() {
 std::vector<ReportScene> load_report_scenes(const ReportSceneOptions& options) {
     std::vector<ReportScene> result;
     for (const std::string& name : options.scenes) {
-        const std::shared_ptr<const render::Scene> scene = load(name, options.area_points);
-        std::vector<render::SheetCamera> cameras = cameras_of(name, *scene);
+        render::Options lighting = scene_options(name, options.area_points);
+        const std::shared_ptr<const render::Scene> scene = load(lighting);
+        std::vector<render::SheetCamera> cameras = cameras_of(lighting.scene, *scene);
         if (options.first_camera) cameras.resize(1);
         for (const render::SheetCamera& camera : cameras) {
             ReportScene& seen = result.emplace_back();
-            seen.name = is_builtin(name) ? name : std::filesystem::path(name).stem().string();
+            seen.name = short_name(name, lighting.scene);
             if (cameras.size() > 1) seen.name += ", camera " + camera.camera.name;
             seen.scene = scene;
             seen.camera = camera.camera;
             set_size(seen, camera, options);
+            seen.options = lighting;
+            seen.options.width = seen.width;
+            seen.options.height = seen.height;
+            seen.options.quiet = true;
         }
     }
     return result;

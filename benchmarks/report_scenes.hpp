@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "options.hpp"
 #include "scene.hpp"
 
 namespace benchmark {
@@ -14,19 +15,18 @@ namespace benchmark {
 struct ReportScene {
     std::string name;
     std::shared_ptr<const render::Scene> scene;
+    render::Options options;  ///< the renderer's for this scene, size included
     render::Camera camera;
     int width = 0;
     int height = 0;
-
-    std::size_t light_count() const;
 };
 
 struct ReportSceneOptions {
-    std::vector<std::string> scenes;  ///< files or builtin:NAME
+    std::vector<std::string> scenes;  ///< as scene_options takes them
     std::optional<int> width;         ///< with neither, `pixels` in the camera's own proportions
     std::optional<int> height;
     double pixels = 160 * 90;
-    std::uint32_t area_points = 64;  ///< lights per emissive surface
+    std::uint32_t area_points = 64;  ///< lights per emissive surface, where a scene does not say
     bool first_camera = false;       ///< one camera a scene
 };
 

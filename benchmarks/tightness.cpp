@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdio>
+#include <exception>
 #include <fstream>
 #include <limits>
 #include <type_traits>
@@ -19,6 +20,7 @@ namespace {
 using namespace benchmark;
 
 /// Bounds that no valid ones can beat: the largest terms that any light of the cluster has at the receiver.
+template <class Forest>
 class ExactBounds {
 public:
     static constexpr bool two_stages = false;
@@ -63,24 +65,21 @@ struct Row {
     double median_ratio = 0;  ///< of usual / exact over the receivers
 };
 
-Row measure(const std::string& scene, std::uint32_t area_points, int width, int height, std::size_t max_cut) {
-    const Workload work(scene, area_points, width, height);
-    const lightcuts::EmbreeOracle oracle = work.oracle();
-    lightcuts::LightcutOptions options;
-    options.max_cut = max_cut;
-    lightcuts::LightcutScratch<glm::vec3> scratch;
+template <class Forest>
+Row measure(const Workload& work, const Forest& forest, std::size_t max_cut) {
+    const render::OpaqueOracle oracle = work.oracle();
+    const lightcuts::LightcutOptions options{.max_cut = max_cut, .clamp = work.clamp()};
+    lightcuts::scratch_of<Forest> scratch;
     const auto cut_size = [&](const Receiver& receiver, const auto& policy) {
         lightcuts::CutResult<glm::vec3> result;
-        lightcuts::shade(work.forest(), std::span(&receiver, 1), oracle, std::span(&result, 1), scratch, options,
-                         policy);
+        lightcuts::shade(forest, std::span(&receiver, 1), oracle, std::span(&result, 1), scratch, options, policy);
         return static_cast<double>(result.cut_size);
     };
     Row row;
-    row.scene = scene;
     row.lights = work.light_count();
     row.receivers = work.receivers().size();
     const auto count = static_cast<double>(row.receivers);
-    ExactBounds exact(work.forest());
+    ExactBounds exact(forest);
     std::vector<double> ratios;
     for (const Receiver& receiver : work.receivers()) {
         exact.look_from(receiver);
@@ -93,6 +92,13 @@ Row measure(const std::string& scene, std::uint32_t area_points, int width, int 
         ratios.push_back(ours / least);
     }
     row.median_ratio = median(ratios);
+    return row;
+}
+
+Row measure(const std::string& scene, int width, int height, std::size_t max_cut) {
+    const Workload work(scene, width, height);
+    Row row = work.visit([&](const auto& forest) { return measure(work, forest, max_cut); });
+    row.scene = scene;
     return row;
 }
 
@@ -116,34 +122,35 @@ int main(int argc, char** argv) {
     std::string only;
     int width = 40, height = 30;
     std::size_t max_cut = 0;
+    std::vector<std::string> scenes{"builtin:hall?area-points=64",
+                                    "builtin:hall?area-points=64&indirect=100000",
+                                    "builtin:omni?lights=10000",
+                                    "builtin:directional?lights=10000",
+                                    "builtin:surfaces?lights=10000&rotated=0",
+                                    "builtin:surfaces?lights=10000"};
     CLI::App app{"Size of cuts by the library's bounds over that by exact ones"};
+    app.add_option("scenes", scenes, "files or builtin:NAME, and ?KEY=VALUE&... for their lights");
     app.add_option("--only", only, "measure only scenes whose name contains this");
     app.add_option("--width", width, "of the picture, pixels");
     app.add_option("--height", height, "of the picture, pixels");
     app.add_option("--max-cut", max_cut, "most clusters in a cut; 0: unlimited");
     CLI11_PARSE(app, argc, argv);
-
-    struct Case {
-        const char* scene;
-        std::uint32_t area_points;
-    };
-    const std::vector<Case> cases = {{"builtin:hall", 64},
-                                     {"builtin:omni?lights=10000", 0},
-                                     {"builtin:directional?lights=10000", 0},
-                                     {"builtin:surfaces?lights=10000&rotated=0", 0},
-                                     {"builtin:surfaces?lights=10000", 0}};
-    nlohmann::json rows = nlohmann::json::array();
-    std::printf("%-39s %7s %6s | %7s | %7s %7s %8s | %8s %8s %8s | %8s\n", "mean cut size by bounds", "lights",
-                "points", "exact", "default", "tight", "separate", "/exact", "/exact", "/exact", "median");
-    for (const Case& c : cases) {
-        const std::string name = std::string(c.scene) + (c.area_points > 0 ? " x" + std::to_string(c.area_points) : "");
-        if (name.find(only) == std::string::npos) continue;
-        const Row r = measure(c.scene, c.area_points, width, height, max_cut);
-        std::printf("%-39s %7zu %6zu | %7.1f | %7.1f %7.1f %8.1f | %8.3f %8.3f %8.3f | %8.3f\n", name.c_str(), r.lights,
-                    r.receivers, r.exact, r.usual, r.tight, r.separate, r.usual / r.exact, r.tight / r.exact,
-                    r.separate / r.exact, r.median_ratio);
-        std::fflush(stdout);
-        rows.push_back(to_json(r));
+    try {
+        nlohmann::json rows = nlohmann::json::array();
+        std::printf("%-44s %7s %6s | %7s | %7s %7s %8s | %8s %8s %8s | %8s\n", "mean cut size by bounds", "lights",
+                    "points", "exact", "default", "tight", "separate", "/exact", "/exact", "/exact", "median");
+        for (const std::string& name : scenes) {
+            if (name.find(only) == std::string::npos) continue;
+            const Row r = measure(name, width, height, max_cut);
+            std::printf("%-44s %7zu %6zu | %7.1f | %7.1f %7.1f %8.1f | %8.3f %8.3f %8.3f | %8.3f\n", name.c_str(),
+                        r.lights, r.receivers, r.exact, r.usual, r.tight, r.separate, r.usual / r.exact,
+                        r.tight / r.exact, r.separate / r.exact, r.median_ratio);
+            std::fflush(stdout);
+            rows.push_back(to_json(r));
+        }
+        std::ofstream("tightness.json") << rows.dump(2) << "\n";
+    } catch (const std::exception& e) {
+        std::fprintf(stderr, "bench-tightness: %s\n", e.what());
+        return 1;
     }
-    std::ofstream("tightness.json") << rows.dump(2) << "\n";
 }

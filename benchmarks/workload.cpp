@@ -1,25 +1,25 @@
 #include "workload.hpp"
 
-#include "emitters.hpp"
-#include "load_scene.hpp"
+#include <lightcuts/core/invalid_input.hpp>
+
+#include "indirect.hpp"
+#include "prepare_scene.hpp"
+#include "scene_options.hpp"
 #include "surface.hpp"
-#include "validate.hpp"
 #include "view.hpp"
 
 namespace benchmark {
 
-Workload::Workload(const std::string& scene, std::uint32_t area_points, int width, int height,
-                   const std::string& builder)
-    : scene_(std::make_unique<render::Scene>(render::load_scene(scene))) {
-    render::validate(*scene_);
-    render::add_emitter_lights(*scene_, area_points);
-    rays_ = std::make_unique<render::RayScene>(*scene_);
-    render::Options options;
-    options.builder = builder;
-    lights_ = std::make_unique<render::SceneLights>(*scene_, options);
+Workload::Workload(const std::string& scene, int width, int height)
+    : options_(scene_options(scene)), scene_(std::make_unique<render::Scene>(render::prepare_scene(options_))),
+      rays_(std::make_unique<render::RayScene>(*scene_)) {
+    if (rays_->transmissive()) throw lightcuts::invalid_input(scene + ": lets light pass, which is not measured");
+    render::add_virtual_lights(*scene_, *rays_, options_.indirect, render::shade_of(options_), options_.seed);
+    lights_ = std::make_unique<render::SceneLights>(*scene_, options_);
 
+    if (scene_->cameras.empty()) throw lightcuts::invalid_input(scene + ": has no camera; choose another scene");
     const render::View view(scene_->cameras.front(), width, height);
-    const render::SurfaceFinder finder(*scene_, *rays_, render::Shade::full);
+    const render::SurfaceFinder finder(*scene_, *rays_, render::shade_of(options_));
     std::vector<render::SurfacePoint> points;
     constexpr int tile = 16;  // the renderer's order: neighbours share cache lines of the trees
     for (int top = 0; top < height; top += tile) {
@@ -38,10 +38,6 @@ Workload::Workload(const std::string& scene, std::uint32_t area_points, int widt
         receivers_.push_back(
             {p.position, render::SurfaceMaterial(p), p.ray_origin, static_cast<std::uint32_t>(receivers_.size())});
     }
-}
-
-std::size_t Workload::light_count() const {
-    return scene_->omni.size() + scene_->oriented.size() + scene_->spots.size() + scene_->directional.size();
 }
 
 double median(std::vector<double> values) {

@@ -8,9 +8,11 @@
 #include <string>
 #include <vector>
 
-#include <lightcuts/adapt/embree.hpp>
 #include <lightcuts/cut/lightcut.hpp>
+#include <lightcuts/estimate/exhaustive.hpp>
 
+#include "options.hpp"
+#include "oracle.hpp"
 #include "ray_scene.hpp"
 #include "scene.hpp"
 #include "scene_lights.hpp"
@@ -19,22 +21,27 @@
 namespace benchmark {
 
 using Receiver = lightcuts::Receiver<render::SurfaceMaterial>;
-using Forest = render::SceneLights::Forest;
 
 /// A scene with its lights in trees and the points that a small picture of it shades.
 class Workload {
 public:
-    /// `area_points`: lights per emissive surface. `builder`: as the renderer's option.
-    Workload(const std::string& scene, std::uint32_t area_points, int width, int height,
-             const std::string& builder = "binned");
+    /// `scene`: see scene_options. It is seen by its first camera.
+    Workload(const std::string& scene, int width, int height);
 
-    std::size_t light_count() const;
-    const Forest& forest() const { return lights_->forest(); }
+    std::size_t light_count() const { return scene_->light_count(); }
+    /// As by default, or as the scene's name says.
+    const lightcuts::ClampOptions& clamp() const { return options_.clamp; }
+    /// Calls `f(forest)` as the renderer would: with a kind for virtual lights only if there are some.
+    template <class F>
+    decltype(auto) visit(F&& f) const {
+        return lights_->visit(f);
+    }
     std::span<const Receiver> receivers() const { return receivers_; }
     RTCScene embree_scene() const { return rays_->embree_scene(); }
-    lightcuts::EmbreeOracle oracle() const { return lightcuts::EmbreeOracle(embree_scene()); }
+    render::OpaqueOracle oracle() const { return {*scene_, *rays_}; }
 
 private:
+    render::Options options_;
     std::unique_ptr<render::Scene> scene_;
     std::unique_ptr<render::RayScene> rays_;
     std::unique_ptr<render::SceneLights> lights_;
@@ -50,6 +57,15 @@ void for_each_group(std::span<const Receiver> receivers, F&& f) {
     for (std::size_t begin = 0; begin < receivers.size(); begin += group_size) {
         f(receivers.subspan(begin, std::min(group_size, receivers.size() - begin)));
     }
+}
+
+/// The sum that a lightcut of the workload approximates.
+template <class Oracle>
+glm::vec3 exhaustive_sum(const Workload& work, const Receiver& receiver, const Oracle& oracle,
+                         lightcuts::EstimateScratch<glm::vec3>& scratch) {
+    return work.visit([&](const auto& forest) {
+        return lightcuts::exhaustive(forest, receiver, oracle, scratch, work.clamp()).radiance;
+    });
 }
 
 /// Processor seconds of this thread: on a shared machine the clock on the wall measures the neighbours.

@@ -11,22 +11,19 @@
 #include <lightcuts/core/invalid_input.hpp>
 #include <nlohmann/json.hpp>
 
-#include "emitters.hpp"
 #include "error.hpp"
 #include "indirect.hpp"
 #include "interrupt.hpp"
-#include "light_table.hpp"
 #include "load_scene.hpp"
 #include "options.hpp"
 #include "output_file.hpp"
 #include "picture.hpp"
+#include "prepare_scene.hpp"
 #include "ray_scene.hpp"
 #include "render_loop.hpp"
 #include "shader.hpp"
-#include "spheres.hpp"
 #include "statistics.hpp"
 #include "surface.hpp"
-#include "surroundings.hpp"
 #include "validate.hpp"
 #include "view.hpp"
 
@@ -83,17 +80,6 @@ std::optional<Picture> read_reference(const Options& options) {
     return reference;
 }
 
-/// Options that have not been given take the scene's own values.
-Scene prepare_scene(Options& options) {
-    Scene scene = load_scene(options.scene);
-    if (!options.lights.empty()) add_light_table(options.lights, scene);
-    add_emitter_lights(scene, options.area_points);
-    add_sphere_lights(scene, options.area_points, options.seed);
-    add_surroundings(scene, options);
-    require_lights(scene);
-    return scene;
-}
-
 Camera scene_camera(const Scene& scene, const std::string& name) {
     if (scene.cameras.empty()) {
         throw lightcuts::invalid_input(scene.name + ": the scene has no camera; give --eye and --target");
@@ -137,6 +123,17 @@ void save(const Outputs& outputs, const Picture& picture, const RunReport& repor
     json.commit();
 }
 
+/// Of clamping that darkens a picture rather than its blotches.
+void warn_of_few_virtual_lights(const Scene& scene, const Options& options) {
+    const lightcuts::ClampOptions clamp = options.clamping();
+    const std::size_t count = scene.virtual_lights.size();
+    if (options.quiet || count == 0 || !clamp.is_automatic() || static_cast<float>(count) * clamp.ratio >= 1.0f) return;
+    std::fprintf(stderr,
+                 "lightcuts-render: warning: %zu virtual lights, each clamped to %g of the light at a point, cannot "
+                 "light what no other light reaches; raise --indirect or --clamp-ratio\n",
+                 count, static_cast<double>(clamp.ratio));
+}
+
 ExitStatus render_scene(Options options) {
     const Outputs outputs(options.output);
     outputs.require_all_writable();
@@ -156,8 +153,9 @@ ExitStatus render_scene(Options options) {
 
     Rendering rendering;
     arena.execute([&] {
-        const Shade shade = options.diffuse_materials ? Shade::diffuse : Shade::full;
+        const Shade shade = shade_of(options);
         add_virtual_lights(scene, rays, options.indirect, shade, options.seed);
+        warn_of_few_virtual_lights(scene, options);
         report.seconds.particles = watch.lap();
         const auto shader = make_shader(scene, rays, options);
         report.seconds.tree = watch.lap();

@@ -21,8 +21,8 @@ constexpr long long largest_picture = 1ll << 27;  ///< pixels
 const std::vector<std::string> methods = {"exhaustive",         "lightcuts",           "ward", "power", "tree-sampling",
                                           "adaptive-splitting", "stochastic-lightcuts"};
 const std::vector<std::string> later_methods = {"multidimensional", "reconstruction", "row-column"};
-const std::vector<std::string> later_options = {"--clamp-ratio", "--instants", "--shutter",
-                                                "--aperture",    "--focus",    "--fog"};
+const std::vector<std::string> clamping_methods = {"exhaustive", "lightcuts"};
+const std::vector<std::string> later_options = {"--instants", "--shutter", "--aperture", "--focus", "--fog"};
 const std::vector<std::string> builders = {"binned", "agglomerate", "longest-axis"};
 
 bool contains(const std::vector<std::string>& words, const std::string& word) {
@@ -134,9 +134,24 @@ void set_output(Options& options, const std::string& text) {
     options.output = path;
 }
 
+/// `ratio`: if it was given.
+void set_clamp(Options& options, const std::string& mode, std::optional<float> ratio) {
+    if (mode != "auto") {
+        if (ratio) throw usage_error("--clamp-ratio goes with --clamp auto: leave it out with --clamp " + mode);
+        options.clamp = {};
+        if (mode != "off") {
+            options.clamp.radiance = number_in("--clamp", mode, 0.0f, std::numeric_limits<float>::max(),
+                                               "auto, off or a number of at least 0");
+        }
+    }
+    if (ratio) options.clamp.ratio = *ratio;
+}
+
 void check_together(const Options& options) {
-    if (options.indirect > 0 && options.clamp != "off") {
-        throw usage_error("--indirect: clamping, its default, comes with a later version; give --clamp off too");
+    const bool clamp_given = options.is_given("--clamp") || options.is_given("--clamp-ratio");
+    if (options.indirect > 0 && clamp_given && options.clamp.has_threshold() && !options.clamping().has_threshold()) {
+        throw usage_error("--method " + options.method +
+                          " does not clamp virtual lights: give --clamp off, or one of " + listed(clamping_methods));
     }
     if (options.eye.has_value() != options.target.has_value()) {
         throw usage_error(std::string(options.eye ? "--eye needs --target" : "--target needs --eye") + " X,Y,Z too");
@@ -159,6 +174,10 @@ void check_together(const Options& options) {
 bool Options::is_given(const std::string& name) const { return contains(given, name); }
 
 bool Options::has_aov(const std::string& name) const { return contains(aovs, name); }
+
+lightcuts::ClampOptions Options::clamping() const {
+    return contains(clamping_methods, method) ? clamp : lightcuts::ClampOptions{};
+}
 
 const std::vector<std::string>& aov_names() {
     static const std::vector<std::string> names = {"cut_size", "shadow_rays", "error_bound", "depth", "normal"};
@@ -273,11 +292,14 @@ Options parse_options(int argc, const char* const* argv) {
           options.sky_lights);
     count("--indirect", "about so many virtual lights for indirect light (0, or the scene's own)", 0, many,
           options.indirect);
-    text("--clamp", "off", "limit of what a virtual light adds at a point; --indirect needs off",
-         [&](const std::string& s) {
-             if (s != "off") throw usage_error("--clamp " + s + ": comes with a later version; give --clamp off");
-             options.clamp = s;
-         });
+    std::string clamp = "auto";
+    std::optional<float> clamp_ratio;
+    text("--clamp", "auto|off|VALUE", "most radiance that a virtual light adds at a point (auto: of its total)",
+         [&](const std::string& s) { clamp = s; });
+    text("--clamp-ratio", "R", "that share of a point's total (0.01)", [&](const std::string& s) {
+        clamp_ratio = number_in("--clamp-ratio", s, std::numeric_limits<float>::min(), std::nextafter(1.0f, 0.0f),
+                                "a number above 0 and below 1");
+    });
     text("--materials", "full|diffuse", "diffuse: Lambert with the base colour everywhere (full)",
          [&](const std::string& s) {
              if (s != "full" && s != "diffuse") refuse("--materials", s, "full or diffuse");
@@ -317,6 +339,7 @@ Options parse_options(int argc, const char* const* argv) {
     }
     if (version) options.action = Options::Action::version;
     if (list_scenes) options.action = Options::Action::list_scenes;
+    set_clamp(options, clamp, clamp_ratio);
     check_together(options);
     return options;
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <glm/vec3.hpp>
+#include <lightcuts/cut/clamp.hpp>
 
 namespace render {
 
@@ -62,7 +63,8 @@ struct Options {
     float turbidity = 3.0f;
     std::uint32_t sky_lights = 5000;  ///< that stand for the sky; 0: it is only seen
     std::uint32_t indirect = 0;       ///< about so many virtual lights; 0: direct light only
-    std::string clamp = "auto";       ///< of virtual lights; only `off` is there yet
+    /// Of virtual lights, by methods that clamp.
+    lightcuts::ClampOptions clamp = lightcuts::automatic_clamping;
     bool diffuse_materials = false;   ///< everything is Lambert with its base colour
     std::filesystem::path reference;  ///< picture to compare with; empty: none
     std::vector<std::string> aovs;    ///< further layers, each of `aov_names()`
@@ -74,6 +76,9 @@ struct Options {
 
     bool is_given(const std::string& name) const;
     bool has_aov(const std::string& name) const;
+
+    /// What the method does to virtual lights: nothing if it is none of those that clamp.
+    lightcuts::ClampOptions clamping() const;
 };
 
 const std::vector<std::string>& aov_names();

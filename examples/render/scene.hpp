@@ -8,6 +8,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+#include <lightcuts/light/clamped.hpp>
 #include <lightcuts/light/directional.hpp>
 #include <lightcuts/light/omni.hpp>
 #include <lightcuts/light/oriented.hpp>
@@ -87,9 +88,6 @@ struct Camera {
     float vertical_fov = 45.0f;  ///< degrees
 };
 
-/// Light that a small piece of surface reflects diffusely: a kind of its own, so that it gets a tree of its own.
-struct VirtualLight : lightcuts::OrientedPointLight<> {};
-
 /// A triangle mesh with everything that lights it and looks at it. Per-vertex arrays have one entry a position, or
 /// none at all: a scene without uvs has no uv array.
 struct Scene {
@@ -109,7 +107,7 @@ struct Scene {
     std::vector<lightcuts::DistantLight<>> directional;
     std::vector<lightcuts::SphereLight<>> spheres;
     std::vector<lightcuts::SpherePointLight<>> sphere_points;  ///< in `spheres`
-    std::vector<VirtualLight> virtual_lights;
+    std::vector<lightcuts::VirtualLight<>> virtual_lights;
     std::size_t environment_lights = 0;  ///< of `directional`: those of the environment map
     std::size_t sun_lights = 0;          ///< likewise
     std::size_t sky_lights = 0;
@@ -119,6 +117,12 @@ struct Scene {
 
     std::size_t dropped_triangles = 0;  ///< of zero area, left out when the scene was checked
     std::size_t dropped_lights = 0;     ///< of zero intensity, left out likewise
+
+    /// Those that are added up at a point, of all kinds: spheres count by their points.
+    std::size_t light_count() const {
+        return omni.size() + oriented.size() + spots.size() + directional.size() + sphere_points.size() +
+               virtual_lights.size();
+    }
 };
 
 }  // namespace render

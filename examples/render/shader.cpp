@@ -3,6 +3,7 @@
 #include <cmath>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include <lightcuts/cut/lightcut.hpp>
 #include <lightcuts/estimate/adaptive_splitting.hpp>
@@ -29,14 +30,18 @@ Receiver receiver_of(const SurfacePoint& p) {
     return {p.position, SurfaceMaterial(p), p.ray_origin, static_cast<std::uint32_t>(name)};
 }
 
+/// `CutForest`: one of the forests of SceneLights.
+template <class CutForest>
 class LightcutShader final : public Shader {
 public:
-    LightcutShader(const Scene& scene, const RayScene& rays, const Options& options)
-        : scene_(scene), rays_(rays), lights_(scene, options) {
+    LightcutShader(const Scene& scene, const RayScene& rays, std::unique_ptr<const SceneLights> lights,
+                   const CutForest& forest, const Options& options)
+        : scene_(scene), rays_(rays), lights_(std::move(lights)), forest_(forest) {
         cut_.error_ratio = options.error_ratio;
         cut_.max_cut = options.max_cut;
         cut_.adaptation = options.adaptation.value_or(0.0f);
         cut_.seed = options.seed;
+        cut_.clamp = options.clamping();
     }
 
     std::unique_ptr<Scratch> make_scratch() const override { return std::make_unique<CutScratch>(); }
@@ -52,8 +57,8 @@ public:
                 own.receivers.clear();
                 for (const SurfacePoint& p : points.subspan(begin, count)) own.receivers.push_back(receiver_of(p));
                 own.results.resize(count);
-                lightcuts::shade(lights_.forest(), std::span<const Receiver>(own.receivers), oracle,
-                                 std::span(own.results), own.cuts, cut_);
+                lightcuts::shade(forest_, std::span<const Receiver>(own.receivers), oracle, std::span(own.results),
+                                 own.cuts, cut_);
                 for (std::size_t i = 0; i < count; ++i) out[begin + i] = shading_of(own.results[i]);
             }
         });
@@ -65,17 +70,18 @@ private:
     struct CutScratch final : Scratch {
         std::vector<Receiver> receivers;
         std::vector<lightcuts::CutResult<glm::vec3>> results;
-        lightcuts::LightcutScratch<glm::vec3> cuts;
+        lightcuts::scratch_of<CutForest> cuts;
     };
 
     static Shading shading_of(const lightcuts::CutResult<glm::vec3>& result) {
-        return {result.radiance, result.error_bound, result.cut_size, result.queries,
-                result.stop == lightcuts::StopReason::limit};
+        return {result.radiance, result.error_bound, result.clamp_threshold,
+                result.cut_size, result.queries,     result.stop == lightcuts::StopReason::limit};
     }
 
     const Scene& scene_;
     const RayScene& rays_;
-    SceneLights lights_;
+    std::unique_ptr<const SceneLights> lights_;
+    const CutForest& forest_;  ///< of `lights_`
     lightcuts::LightcutOptions cut_;
 };
 
@@ -94,7 +100,8 @@ public:
             for (std::size_t i = 0; i < points.size(); ++i) {
                 const Receiver receiver = receiver_of(points[i]);
                 const auto estimate = method_(lights_.forest(), receiver, oracle, own);
-                out[i] = {estimate.radiance, glm::vec3(0.0f), estimate.queries, estimate.queries, false};
+                out[i] = {estimate.radiance, glm::vec3(0.0f),  estimate.clamp_threshold,
+                          estimate.queries,  estimate.queries, false};
             }
         });
     }
@@ -111,11 +118,12 @@ private:
 };
 
 struct Exhaustive {
-    Exhaustive(const Forest&, const Options&) {}
+    Exhaustive(const Forest&, const Options& options) : clamp(options.clamping()) {}
     template <class R, class Oracle, class Scratch>
     auto operator()(const Forest& forest, const R& receiver, const Oracle& oracle, Scratch& scratch) const {
-        return lightcuts::exhaustive(forest, receiver, oracle, scratch);
+        return lightcuts::exhaustive(forest, receiver, oracle, scratch, clamp);
     }
+    lightcuts::ClampOptions clamp;
 };
 
 struct Ward {
@@ -182,7 +190,11 @@ std::unique_ptr<Shader> make_shader(const Scene& scene, const RayScene& rays, co
     if (options.method == "stochastic-lightcuts") {
         return std::make_unique<EstimateShader<StochasticLightcuts>>(scene, rays, options);
     }
-    return std::make_unique<LightcutShader>(scene, rays, options);
+    auto lights = std::make_unique<const SceneLights>(scene, options);
+    const SceneLights& trees = *lights;
+    return trees.visit([&]<class F>(const F& forest) -> std::unique_ptr<Shader> {
+        return std::make_unique<LightcutShader<F>>(scene, rays, std::move(lights), forest, options);
+    });
 }
 
 }  // namespace render

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -19,6 +20,8 @@ namespace render {
 struct Shading {
     glm::vec3 radiance{0.0f};
     glm::vec3 error_bound{0.0f};  ///< absolute radiance; may be infinite
+    /// Radiance that no virtual light exceeded; infinite if none was clamped.
+    glm::vec3 clamp_threshold{std::numeric_limits<float>::infinity()};
     std::uint32_t cut_size = 0;
     std::uint32_t shadow_rays = 0;  ///< queries answered by the visibility oracle
     bool at_limit = false;          ///< the cut ended at its largest size, not at the error ratio

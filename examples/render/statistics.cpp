@@ -57,10 +57,30 @@ Json options_json(const RunReport& report) {
     json["turbidity"] = as_written(o.turbidity);
     json["sky_lights"] = o.sky_lights;
     json["indirect"] = o.indirect;
-    json["clamp"] = o.clamp;
+    json["clamp"] = o.clamp.is_automatic()    ? Json("auto")
+                    : o.clamp.has_threshold() ? Json(as_written(o.clamp.radiance))
+                                              : Json("off");
+    json["clamp_ratio"] = o.clamp.is_automatic() ? Json(as_written(o.clamp.ratio)) : Json(nullptr);
     json["materials"] = o.diffuse_materials ? "diffuse" : "full";
     json["reference"] = path_or_null(o.reference);
     json["aov"] = o.aovs;
+    return json;
+}
+
+/// How virtual lights were clamped; null if there are none.
+Json clamp_json(const RunReport& report) {
+    if (report.scene.virtual_lights.empty()) return nullptr;
+    const lightcuts::ClampOptions clamp = report.options.clamping();
+    const RenderStatistics& s = report.statistics;
+    Json json;
+    json["mode"] = clamp.is_automatic() ? "auto" : clamp.has_threshold() ? "value" : "off";
+    json["ratio"] = clamp.is_automatic() ? Json(as_written(clamp.ratio)) : Json(nullptr);
+    json["threshold"] = nullptr;
+    if (clamp.has_threshold() && s.points > 0) {
+        json["threshold"] = {{"mean", finite_or_null(per(s.clamp_threshold_sum, s.points))},
+                             {"min", finite_or_null(s.least_clamp_threshold)},
+                             {"max", finite_or_null(s.largest_clamp_threshold)}};
+    }
     return json;
 }
 
@@ -122,6 +142,7 @@ Json to_json(const RunReport& report) {
         {"mean", per(static_cast<double>(s.cut_nodes), s.points)}, {"max", s.largest_cut}, {"at_limit", s.at_limit}};
     json["error_bound"] = {{"mean", finite_or_null(per(s.error_bound_sum, s.pixels))},
                            {"max", finite_or_null(s.largest_error_bound)}};
+    json["clamp"] = clamp_json(report);
     json["peak_memory_bytes"] = peak_memory();
     json["options"] = options_json(report);
     if (report.error) json["error"] = to_json(*report.error);
@@ -133,9 +154,7 @@ std::string summary(const RunReport& report) {
     const RenderStatistics& s = report.statistics;
     std::ostringstream text;
     text << std::setprecision(3);
-    text << report.options.scene << ": " << scene.triangles.size() << " triangles, "
-         << scene.omni.size() + scene.oriented.size() + scene.spots.size() + scene.directional.size() +
-                scene.sphere_points.size() + scene.virtual_lights.size()
+    text << report.options.scene << ": " << scene.triangles.size() << " triangles, " << scene.light_count()
          << " lights\n";
     text << report.options.method << ": " << report.seconds.load << " s loading, " << report.seconds.tree
          << " s trees, " << report.seconds.render << " s rendering, "

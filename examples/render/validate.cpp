@@ -203,9 +203,7 @@ void validate(Scene& scene) {
 }
 
 void require_lights(const Scene& scene) {
-    const bool none = scene.omni.empty() && scene.oriented.empty() && scene.spots.empty() &&
-                      scene.directional.empty() && scene.sphere_points.empty() && scene.dropped_lights == 0;
-    if (none) {
+    if (scene.light_count() == 0 && scene.dropped_lights == 0) {
         throw lightcuts::invalid_input(
             scene.name +
             ": the scene has no lights; add some with --lights, --env or --sun-sky, or raise --area-points if "

@@ -67,6 +67,25 @@ TEST_F(ErrorVsTime, WritesFiguresPlotsAndPictures) {
     EXPECT_EQ(svg.find("nan"), std::string::npos);
 }
 
+TEST_F(ErrorVsTime, ComparesMethodsThatDoNotClampWithASumThatDoesNot) {
+    const auto result = run("--scene builtin:hall?area-points=1&indirect=150 --width 16 --height 9 --quick");
+    ASSERT_EQ(result.status, 0) << result.err;
+    const auto json = nlohmann::json::parse(folder.read("error_vs_time.json"));
+    const auto& scene = json.at("scenes")[0];
+    EXPECT_NEAR(scene.at("lights").get<double>(), 72.0 + 150.0, 30.0);
+    EXPECT_GT(scene.at("exhaustive_not_clamped").at("seconds"), 0.0);
+    // Each comes near to its own; the pictures are far from each other.
+    for (const auto& curve : scene.at("curves")) {
+        const std::string method = curve.at("method");
+        if (method != "ward" && method != "lightcuts") continue;
+        EXPECT_LT(curve.at("points").back().at("error").at("relative_rmse"), 0.05) << method;
+    }
+    const auto off = run("--scene builtin:hall?area-points=1&indirect=150&clamp=off --width 16 --height 9 --quick");
+    ASSERT_EQ(off.status, 0) << off.err;
+    EXPECT_FALSE(
+        nlohmann::json::parse(folder.read("error_vs_time.json")).at("scenes")[0].contains("exhaustive_not_clamped"));
+}
+
 TEST_F(ErrorVsTime, UsesTheCamerasOfASceneJson) {
     const std::string camera = R"({"eye": [0, 0, 3], "target": [0, 0, 0], "up": [0, 1, 0], "vfov_deg": 40,
                                    "resolution": [64, 128]})";
@@ -97,6 +116,8 @@ TEST_F(ErrorVsTime, RefusesInOneLineAndWritesNothing) {
         {"--scene bad/room.obj", 1, "bad/scene.json: cameras[0]: 'target' is missing"},
         {"--scene bad/room.obj --area-points 0", 1, "bad/room.obj: "},
         {"--scene builtin:none", 1, "builtin:none"},
+        {"--scene builtin:hall?indirect=some", 1, "builtin:hall?indirect=some: --indirect"},
+        {"--scene bad/room.obj?indirect=10&method=power", 1, "'method=power'"},
         {"--output no/such/folder", 1, "no/such/folder"},
         {"--runs 0", 2, "--runs"},
         {"--width 0", 2, "--width"},

@@ -18,10 +18,6 @@ using render::load_scene;
 using render::Scene;
 using testing::HasSubstr;
 
-std::size_t light_count(const Scene& s) {
-    return s.omni.size() + s.oriented.size() + s.spots.size() + s.directional.size();
-}
-
 TEST(Builtin, AllLoadWithCameras) {
     EXPECT_EQ(render::builtin_names(),
               (std::vector<std::string>{"hall", "omni", "directional", "surfaces", "tableau", "colonnade", "screens"}));
@@ -54,7 +50,7 @@ TEST(Builtin, HallIsAsStated) {
         EXPECT_NEAR(panel.area, 0.36, 1e-5);
         for (const std::uint32_t t : panel.triangles) EXPECT_LT(s.positions[s.triangles[t].x].y, 6.0f);
     }
-    EXPECT_EQ(light_count(s), 0u);
+    EXPECT_EQ(s.light_count(), 0u);
     render::add_emitter_lights(s, 64);
     EXPECT_EQ(s.oriented.size(), 72u * 64u);
     for (const auto& light : s.oriented) EXPECT_EQ(light.axis, glm::vec3(0, -1, 0));
@@ -70,7 +66,7 @@ TEST(Builtin, LightCounts) {
     for (const char* name : {"omni", "directional", "surfaces"}) {
         for (const std::size_t count : {1u, 37u, 5'000u}) {
             const std::string scene = std::string("builtin:") + name + "?lights=" + std::to_string(count);
-            EXPECT_EQ(light_count(load_scene(scene)), count) << scene;
+            EXPECT_EQ(load_scene(scene).light_count(), count) << scene;
         }
     }
 }

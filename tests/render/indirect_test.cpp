@@ -1,6 +1,9 @@
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
@@ -38,9 +41,10 @@ protected:
         }
         folder.write("ball.obj", text);
         folder.write("ball.mtl", "newmtl paint\nKd 0.5 0.25 0.6\n");
+        folder.write("omni.csv", "kind,x,y,z,dx,dy,dz,r,g,b\nomni,0,0,0,,,,4,4,4\n");
     }
     Picture rendered(const std::string& arguments) {
-        const auto result = render("--quiet --clamp off " + arguments);
+        const auto result = render("--quiet " + arguments);
         EXPECT_EQ(result.status, 0) << arguments << ": " << result.err;
         return render::read_exr(folder / "render.exr");
     }
@@ -50,12 +54,12 @@ TEST_F(IndirectLight, OfAllBouncesFillsABall) {
     // Each bounce lights a ball evenly: radiance is direct / (1 - albedo). Over seeds the means of channels spread by
     // at most 0.6 %, so that one run in some thousands fails for another seed; this one's is fixed.
     write_ball();
-    folder.write("omni.csv", "kind,x,y,z,dx,dy,dz,r,g,b\nomni,0,0,0,,,,4,4,4\n");
     folder.write("sphere.csv", "kind,x,y,z,dx,dy,dz,r,g,b\nsphere,0,0,0,0.2,,,4,4,4\n");
     for (const std::string light : {"omni", "sphere"}) {
         for (const std::string method : {"exhaustive", "lightcuts"}) {
-            const Picture picture = rendered("ball.obj --indirect 20000 --size 8x6 --eye 0.9,0.5,0 --target -2,0,0 " +
-                                             ("--lights " + light + ".csv --method " + method));
+            const Picture picture = rendered(
+                "ball.obj --clamp off --indirect 20000 --size 8x6 --eye 0.9,0.5,0 --target -2,0,0 " +
+                ("--lights " + light + ".csv --method " + method));
             const auto lights = report("render.json").at("lights");
             EXPECT_NEAR(lights.at("virtual").get<double>(), 20000.0, 1000.0);
             EXPECT_EQ(lights.at(light), light == "omni" ? 1 : 64);
@@ -97,18 +101,123 @@ TEST_F(IndirectLight, IsTheSameWithAnyNumberOfThreads) {
     EXPECT_EQ(report("render.json").at("lights").at("virtual"), 0);
 }
 
+/// The scene of a lamp in a ball, whose virtual lights next to a receiver are far brighter than the others.
+const std::string ball = "ball.obj --lights omni.csv --size 24x18 --eye 0.9,0.5,0 --target -2,0,0 ";
+
+TEST_F(IndirectLight, IsClampedToTheShareThatIsRecorded) {
+    write_ball();
+    for (const std::string method : {"exhaustive", "lightcuts"}) {
+        for (const std::string options : {"", "--clamp auto --clamp-ratio 0.002 "}) {
+            const double ratio = options.empty() ? 0.01 : 0.002;
+            const Picture picture = rendered(ball + "--indirect 3000 --method " + method + " " + options);
+            // A point's threshold is that share of its total, which is the pixel's radiance.
+            double sum = 0, least = std::numeric_limits<double>::infinity(), largest = 0;
+            for (const glm::vec3& pixel : picture.pixels) {
+                for (int c = 0; c < 3; ++c) {
+                    const double radiance = static_cast<double>(pixel[c]);
+                    sum += radiance / 3.0 / static_cast<double>(picture.size());
+                    least = std::min(least, radiance);
+                    largest = std::max(largest, radiance);
+                }
+            }
+            const auto clamp = report("render.json").at("clamp");
+            EXPECT_EQ(clamp.at("mode"), "auto");
+            EXPECT_EQ(clamp.at("ratio"), ratio);
+            for (const auto& [key, radiance] : {std::pair("mean", sum), {"min", least}, {"max", largest}}) {
+                const double threshold = clamp.at("threshold").at(key).get<double>();
+                EXPECT_NEAR(threshold / (ratio * radiance), 1.0, 1e-4) << method << " " << options << key;
+            }
+        }
+    }
+}
+
+TEST_F(IndirectLight, IsClampedToTheRadianceThatWasGiven) {
+    write_ball();
+    const std::string scene = ball + "--method exhaustive ";
+    const Picture direct = rendered(scene);
+    EXPECT_EQ(report("render.json").at("clamp"), nullptr);
+    const Picture off = rendered(scene + "--indirect 3000 --clamp off");
+    EXPECT_EQ(report("render.json").at("clamp").at("mode"), "off");
+    EXPECT_EQ(report("render.json").at("clamp").at("threshold"), nullptr);
+    const Picture none = rendered(scene + "--indirect 3000 --clamp 0");
+    const Picture some = rendered(scene + "--indirect 3000 --clamp 5e-5");
+    const auto clamp = report("render.json").at("clamp");
+    EXPECT_EQ(clamp.at("mode"), "value");
+    EXPECT_EQ(clamp.at("ratio"), nullptr);
+    for (const char* key : {"mean", "min", "max"}) EXPECT_FLOAT_EQ(clamp.at("threshold").at(key), 5e-5f) << key;
+    const auto lights = report("render.json").at("lights").at("virtual").get<float>();
+    const Picture all = rendered(scene + "--indirect 3000 --clamp 1e9");
+    int clamped = 0;
+    for (std::size_t i = 0; i < off.size(); ++i) {
+        for (int c = 0; c < 3; ++c) {
+            EXPECT_EQ(none.pixels[i][c], direct.pixels[i][c]);
+            EXPECT_NEAR(all.pixels[i][c] / off.pixels[i][c], 1.0, 1e-6);
+            EXPECT_LE(some.pixels[i][c], 1.000001f * off.pixels[i][c]);
+            EXPECT_LE(some.pixels[i][c], 1.000001f * (direct.pixels[i][c] + 5e-5f * lights));
+            clamped += some.pixels[i][c] < 0.99f * off.pixels[i][c] ? 1 : 0;
+        }
+    }
+    EXPECT_GT(clamped, 100);
+}
+
+TEST_F(IndirectLight, OfALightcutIsNearTheSumWithTheSameClamping) {
+    write_ball();
+    for (const std::string clamp : {"off", "auto", "5e-5"}) {
+        const std::string scene = ball + "--indirect 3000 --clamp " + clamp + " ";
+        ASSERT_EQ(render(scene + "--quiet --method exhaustive -o exact.exr").status, 0);
+        rendered(scene + "--reference exact.exr");
+        EXPECT_LT(report("render.json").at("error").at("relative_rmse"), 0.02) << clamp;
+    }
+    // To clamp otherwise makes another picture.
+    rendered(ball + "--indirect 3000 --clamp off --reference exact.exr");
+    EXPECT_GT(report("render.json").at("error").at("relative_rmse"), 0.02);
+}
+
+TEST_F(IndirectLight, IsNotClampedByMethodsThatCannot) {
+    for (const std::string method : {"ward", "power", "tree-sampling", "adaptive-splitting", "stochastic-lightcuts"}) {
+        for (const std::string off : {"", " --clamp off"}) {
+            rendered("room.obj --size 4x3 --indirect 200 --method " + method + off + view);
+            EXPECT_EQ(report("render.json").at("clamp").at("mode"), "off") << method;
+        }
+        rendered("room.obj --size 4x3 --clamp auto --method " + method + view);  // there is nothing to clamp
+    }
+}
+
+TEST_F(IndirectLight, OfTooFewLightsIsWarnedOf) {
+    const std::string scene = "room.obj --size 4x3 --indirect 50" + view;
+    const auto warned = [&](const std::string& options) {
+        const auto result = render(scene + options);
+        EXPECT_EQ(result.status, 0) << result.err;
+        return result.err.find("--clamp-ratio") != std::string::npos;
+    };
+    EXPECT_TRUE(warned(""));
+    EXPECT_TRUE(warned("--method exhaustive"));
+    EXPECT_FALSE(warned("--clamp-ratio 0.1"));
+    EXPECT_FALSE(warned("--clamp off"));
+    EXPECT_FALSE(warned("--clamp 0.1"));
+    EXPECT_FALSE(warned("--method power"));
+    EXPECT_EQ(render(scene + "--quiet").err, "");
+}
+
 TEST_F(IndirectLight, RefusesWhatCannotBe) {
     folder.write("up.csv", "kind,x,y,z,dx,dy,dz,r,g,b\noriented,0,2,0,0,1,0,1,1,1\n");
     folder.write("mirror.mtl", "newmtl mirror\nKd 0 0 0\nKs 1 1 1\nillum 5\n");
     folder.write("mirror.obj", "mtllib mirror.mtl\nv -4 0 -4\nv 4 0 -4\nv 4 0 4\nv -4 0 4\nusemtl mirror\nf 4 3 2 1\n");
     const Refusal refusals[] = {
-        {"floor.obj --clamp off --indirect 100 --lights up.csv", 1, "floor.obj: virtual lights: none of"},
-        {"floor.obj --clamp off --indirect 100 --lights dark.csv", 1, "floor.obj: virtual lights: no light emits"},
-        {"mirror.obj --clamp off --indirect 100 --lights one.csv", 1, "mirror.obj: virtual lights: of"},
-        {"room.obj --clamp off --indirect some", 2, "--indirect"},
-        {"room.obj --indirect 100", 2, "--clamp off"},
-        {"room.obj --indirect 100 --clamp auto", 2, "--clamp off"},
-        {"room.obj --indirect 100 --clamp 0.5", 2, "--clamp off"},
+        {"floor.obj --indirect 100 --lights up.csv", 1, "floor.obj: virtual lights: none of"},
+        {"floor.obj --indirect 100 --lights dark.csv", 1, "floor.obj: virtual lights: no light emits"},
+        {"mirror.obj --indirect 100 --lights one.csv", 1, "mirror.obj: virtual lights: of"},
+        {"room.obj --indirect some", 2, "--indirect"},
+        {"room.obj --indirect 100 --clamp some", 2, "--clamp some"},
+        {"room.obj --indirect 100 --clamp -1", 2, "--clamp -1"},
+        {"room.obj --indirect 100 --clamp inf", 2, "--clamp inf"},
+        {"room.obj --indirect 100 --clamp-ratio 0", 2, "--clamp-ratio 0"},
+        {"room.obj --indirect 100 --clamp-ratio 1", 2, "--clamp-ratio 1"},
+        {"room.obj --indirect 100 --clamp off --clamp-ratio 0.1", 2, "--clamp-ratio goes with --clamp auto"},
+        {"room.obj --indirect 100 --clamp-ratio 0.1 --clamp 2", 2, "--clamp-ratio goes with --clamp auto"},
+        {"room.obj --indirect 100 --clamp auto --method power", 2, "--method power does not clamp"},
+        {"room.obj --indirect 100 --clamp 0.5 --method ward", 2, "--method ward does not clamp"},
+        {"room.obj --indirect 100 --clamp-ratio 0.1 --method tree-sampling", 2, "--method tree-sampling does not"},
     };
     const auto before = files();
     for (const Refusal& refusal : refusals) {

@@ -1,0 +1,24 @@
+#include "prepare_scene.hpp"
+
+#include "emitters.hpp"
+#include "light_table.hpp"
+#include "load_scene.hpp"
+#include "spheres.hpp"
+#include "surroundings.hpp"
+#include "validate.hpp"
+
+namespace render {
+
+Scene prepare_scene(Options& options) {
+    Scene scene = load_scene(options.scene);
+    if (!options.lights.empty()) add_light_table(options.lights, scene);
+    add_emitter_lights(scene, options.area_points);
+    add_sphere_lights(scene, options.area_points, options.seed);
+    add_surroundings(scene, options);
+    require_lights(scene);
+    return scene;
+}
+
+Shade shade_of(const Options& options) { return options.diffuse_materials ? Shade::diffuse : Shade::full; }
+
+}  // namespace render
