@@ -245,6 +245,30 @@ TEST(Clamping, IsNotFooledByDarkRepresentatives) {
     }
 }
 
+// A limited cut, too, finds the only lights that are seen where bounds point to them: those near the receiver.
+TEST(Clamping, OfALimitedCutFindsTheLightNearby) {
+    std::vector<Virtual> lights;
+    for (int i = 0; i < 200 * 200; ++i) {
+        lights.push_back(
+            {{{0.1f * static_cast<float>(i % 200) + 0.05f, 0.1f * static_cast<float>(i / 200) + 0.05f, 2.0f},
+              {0.0f, 0.0f, -1.0f},
+              V(1.0f),
+              {}}});
+    }
+    const LightTree tree(lights);
+    for (int i = 0; i < 10; ++i) {
+        const V point(2.0f + 1.7f * static_cast<float>(i), 7.3f, 0.0f);
+        const Receiver<Lambert<V>> receiver(point, Lambert<V>{{0.0f, 0.0f, 1.0f}, V(0.5f)});
+        const auto nearby = [&](const auto&, const Virtual& light) {
+            return glm::distance(light.position, point + V(0.0f, 0.0f, 2.0f)) < 0.8f;  // some 200 of 40,000
+        };
+        const V exact = exhaustive(tree, receiver, nearby, automatic_clamping).radiance;
+        const auto result = shade(tree, receiver, nearby, {.max_cut = 400, .clamp = automatic_clamping});
+        EXPECT_EQ(result.stop, StopReason::limit);
+        EXPECT_NEAR(result.radiance.x, exact.x, 0.5f * exact.x);
+    }
+}
+
 TEST(Clamping, OfDarknessIsDarkness) {
     Room<V> room(67);
     auto lights = marked(room.oriented(300));

@@ -456,12 +456,14 @@ private:
         if constexpr (clamps) set_shares();
     }
 
-    /// A light's share in the total is known also where the total is not, since it has been dark so far.
+    /// None in the dark: there shares would send refinement to the clusters of most lights, and at the limit of
+    /// clusters it would have found nothing where bounds lead it to the lights that are seen.
     void set_shares() requires clamps {
         const double limit = static_cast<double>(options_.clamp.radiance);
-        const double ratio = options_.clamp.is_automatic() ? static_cast<double>(options_.clamp.ratio)
-                                                           : std::numeric_limits<double>::infinity();
         for (std::size_t c = 0; c < totals_.weight.size(); ++c) {
+            const bool any_share = !options_.clamp.is_automatic() || totals_.weight[c] == darkest;
+            const double ratio = any_share ? std::numeric_limits<double>::infinity()
+                                           : static_cast<double>(options_.clamp.ratio);
             const double share = limit * totals_.weight[c];
             totals_.clamp.share[c] = share < ratio ? share : ratio;
         }
