@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 #include <benchmarks/report_measurement.hpp>
+#include <benchmarks/report_pictures.hpp>
 #include <render/picture.hpp>
 
 #include "render/temporary_folder.hpp"
@@ -55,6 +56,18 @@ TEST(ReportMeasurement, IsOfReflectedLightAlone) {
     EXPECT_GT(of_wall, 10u);
     EXPECT_GT(of_sky, 10u);
     EXPECT_GT(of_lamp, 1u);
+}
+
+TEST(ReportPictures, ShowCutSizesBesideAFewLargeOnes) {
+    std::vector<float> sizes(1000, 0.0f);
+    EXPECT_FALSE(benchmark::white_cut_size(sizes));
+    for (std::size_t i = 100; i < 1000; ++i) sizes[i] = 50.0f;
+    EXPECT_FALSE(benchmark::white_cut_size(sizes));
+    for (std::size_t i = 500; i < 1000; ++i) sizes[i] = 80.0f;
+    for (std::size_t i = 0; i < 5; ++i) sizes[i] = 1e5f;
+    EXPECT_EQ(benchmark::white_cut_size(sizes), 80.0f);
+    for (std::size_t i = 0; i < 50; ++i) sizes[i] = 1e5f;
+    EXPECT_EQ(benchmark::white_cut_size(sizes), 1e5f);
 }
 
 TEST(ReportScenes, AreNamedWithoutFolders) {
