@@ -64,26 +64,27 @@ private:
 std::string figure_text(const EqualTime::Figure& f) {
     char text[96];
     if (!f.best_other) {
-        std::snprintf(text, sizeof text, "%8.2f %% %10s %-10s %7s", 100.0 * f.lightcuts, "", "none", "");
+        std::snprintf(text, sizeof text, "%8.2f %% %10s %-20s %7s", 100.0 * f.lightcuts, "", "none", "");
     } else {
-        std::snprintf(text, sizeof text, "%8.2f %% %8.2f %% %-10s %7.3f", 100.0 * f.lightcuts, 100.0 * *f.best_other,
+        std::snprintf(text, sizeof text, "%8.2f %% %8.2f %% %-20s %7.3f", 100.0 * f.lightcuts, 100.0 * *f.best_other,
                       f.other.c_str(), *f.ratio());
     }
     return text;
 }
 
-void print_header() {
+void print_header(int name_width) {
     std::printf("At the time in which lightcuts reach a relative RMSE of 2 %%:\n");
-    std::printf("%-34s %-30s %9s %9s | %-40s | 99.9th percentile\n", "", "", "", "exhaust.", "relative RMSE");
-    std::printf("%-34s %-30s %9s %9s | %10s %21s %7s | %10s %21s %7s\n", "scene", "method", "seconds", "seconds",
-                "lightcuts", "best other", "ratio", "lightcuts", "best other", "ratio");
+    std::printf("%-*s %-28s %9s %9s | %-50s | 99.9th percentile\n", name_width, "", "", "", "exhaust.",
+                "relative RMSE");
+    std::printf("%-*s %-28s %9s %9s | %10s %-31s %7s | %10s %-31s %7s\n", name_width, "scene", "method", "seconds",
+                "seconds", "lightcuts", "best other", "ratio", "lightcuts", "best other", "ratio");
     std::fflush(stdout);
 }
 
-void print_rows(const SceneMeasurement& scene) {
+void print_rows(const SceneMeasurement& scene, int name_width) {
     for (const EqualTime& row : equal_times(scene)) {
-        std::printf("%-34s %-30s %9.4f %9.3f | %s | %s%s\n", scene.scene.name.c_str(), row.curve.c_str(), row.seconds,
-                    row.exhaustive_seconds, figure_text(row.relative_rmse).c_str(),
+        std::printf("%-*s %-28s %9.4f %9.3f | %s | %s%s\n", name_width, scene.scene.name.c_str(), row.curve.c_str(),
+                    row.seconds, row.exhaustive_seconds, figure_text(row.relative_rmse).c_str(),
                     figure_text(row.p999_relative).c_str(), row.reached ? "" : "  2 % not reached");
     }
     std::fflush(stdout);
@@ -144,15 +145,19 @@ void run(const Arguments& arguments) {
     render::require_writable(arguments.output / "error_vs_time.html");
     const std::vector<ReportScene> scenes = load_report_scenes(arguments.scenes);
     std::size_t settings = 0;
-    for (const ReportScene& scene : scenes) settings += setting_count(scene, arguments.measurement);
+    std::size_t name_width = 0;
+    for (const ReportScene& scene : scenes) {
+        settings += setting_count(scene, arguments.measurement);
+        name_width = std::max(name_width, scene.name.size());
+    }
     StatusLine status(settings);
     Report report{this_machine(), arguments.measurement, {}};
-    print_header();
+    print_header(static_cast<int>(name_width));
     for (const ReportScene& scene : scenes) {
         report.scenes.push_back(measure(scene, arguments.measurement,
                                         [&](const std::string& setting) { status.show(scene.name + ": " + setting); }));
         status.clear();
-        print_rows(report.scenes.back());
+        print_rows(report.scenes.back(), static_cast<int>(name_width));
     }
     write(report, arguments);
     std::printf("written: %s and .csv, .json\n", (arguments.output / "error_vs_time.html").c_str());

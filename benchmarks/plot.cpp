@@ -78,7 +78,10 @@ std::string axes(const Plot& plot, const Axis& x, const Axis& y) {
     }
     svg += formatted("<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"none\" stroke=\"#444444\"/>\n",
                      left, top, right - left, bottom - top);
-    svg += text_at(left, 20, "font-size=\"14\" font-weight=\"bold\"", plot.title);
+    // A bold letter is about two thirds as wide as high; long titles become small.
+    const double letters = static_cast<double>(std::max<std::size_t>(plot.title.size(), 1));
+    const double size = std::min(14.0, (width - left) / (0.66 * letters));
+    svg += text_at(left, 20, formatted("font-size=\"%.1f\" font-weight=\"bold\"", size).c_str(), plot.title);
     svg += text_at((left + right) / 2, bottom + 36, "text-anchor=\"middle\"", plot.x_title);
     svg += text_at(
         0, 0,

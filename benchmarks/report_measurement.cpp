@@ -67,6 +67,7 @@ public:
           surfaces_(scene_, rays_, render::shade_of(scene.options)), usual_(scene.options) {
         emitted_ = render::render_picture(view_, surfaces_, BlackShader(), usual_).picture;
         for (render::Material& material : scene_.materials) material.emission = glm::vec3(0.0f);
+        scene_.background = {};
         usual_.aovs = {"cut_size"};
     }
 
@@ -96,7 +97,7 @@ public:
     }
 
 private:
-    render::Scene scene_;  ///< its emitters are black once `emitted_` is rendered
+    render::Scene scene_;  ///< emitters and background are black once `emitted_` is rendered
     int runs_;
     render::RayScene rays_;
     render::View view_;

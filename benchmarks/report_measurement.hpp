@@ -32,7 +32,7 @@ struct Curve {
 
 struct SceneMeasurement {
     ReportScene scene;
-    render::Picture emitted;  ///< what is seen of the emitters themselves
+    render::Picture emitted;  ///< what is seen of the emitters themselves, and of the background
     Measurement exhaustive;   ///< the reference, with virtual lights clamped as by lightcuts
     /// The same without clamping, where that makes a difference.
     std::optional<Measurement> unclamped;
@@ -53,8 +53,8 @@ std::size_t setting_count(const ReportScene& scene, const MeasurementOptions& op
 
 /// Measures all methods. `start` is called with a description before each setting.
 /// Only the method's own work is timed, not eye rays, which are the same for all. What takes seconds is run once.
-/// Errors are of reflected light: the radiance of emitters in view is no method's work, and often so bright that the
-/// rest would not count.
+/// Errors are of reflected light: the radiance of emitters and of the background in view is no method's work, and often
+/// so bright that the rest would not count.
 SceneMeasurement measure(const ReportScene& scene, const MeasurementOptions& options,
                          const std::function<void(const std::string&)>& start);
 

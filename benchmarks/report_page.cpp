@@ -28,7 +28,7 @@ svg { max-width: 100%; height: auto; }
 )";
 
 constexpr const char* explanation = R"(<p>Times are processor seconds of a method's own work, summed over threads:
-eye rays, which are the same for all, and building trees are not in them. Errors are against the exhaustive sum, and of reflected light: emitters in view are left out.
+eye rays, which are the same for all, and building trees are not in them. Errors are against the exhaustive sum, and of reflected light: emitters and the background in view are left out.
 Lightcuts clamp virtual lights, and so does their exhaustive sum; methods that do not are compared with the sum that does not.
 A curve has one point for each value of its method's parameter; errors below 0.01&nbsp;% are drawn at 0.01&nbsp;%.
 Steps are differences of luminance between neighbouring pixels that the reference does not have, relative to the

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <optional>
 #include <string_view>
 
 #include <glm/common.hpp>
@@ -57,24 +58,27 @@ Picture difference(const Picture& picture, const Picture& reference, float facto
 /// Where the cut size varies; the same everywhere it is no picture.
 std::string cut_size_map(const Measurement& m) {
     const Picture::Channel* cuts = m.picture.find("cut_size");
-    float low = INFINITY, high = 0.0f;
-    for (const float size : cuts->values) {
-        if (size <= 0.0f) continue;
-        low = std::min(low, size);
-        high = std::max(high, size);
-    }
-    if (!(low < high)) return {};
+    const std::optional<float> white = white_cut_size(cuts->values);
+    if (!white) return {};
     std::vector<glm::vec3> colors;
     for (const float size : cuts->values) {
-        colors.push_back(render::false_color(static_cast<double>(size), static_cast<double>(high)));
+        colors.push_back(render::false_color(static_cast<double>(size), static_cast<double>(*white)));
     }
     char range[96];
-    std::snprintf(range, sizeof range, "cut size: mean %.0f; black 0, white %.0f", m.cut_size,
-                  static_cast<double>(high));
+    std::snprintf(range, sizeof range, "cut size: mean %.0f; black 0, white %.0f or more", m.cut_size,
+                  static_cast<double>(*white));
     return figure(m.picture, colors, range);
 }
 
 }  // namespace
+
+std::optional<float> white_cut_size(std::vector<float> sizes) {
+    std::erase_if(sizes, [](float size) { return !(size > 0.0f); });
+    if (sizes.empty()) return std::nullopt;
+    std::sort(sizes.begin(), sizes.end());
+    if (sizes.front() == sizes.back()) return std::nullopt;
+    return sizes[(sizes.size() - 1) * 99 / 100];
+}
 
 std::vector<const Measurement*> equal_time_settings(const SceneMeasurement& scene) {
     const auto lightcuts = std::find_if(scene.curves.begin(), scene.curves.end(), [](const Curve& c) {

@@ -17,7 +17,7 @@ double error_of(const Measurement& m, PlotError error) {
     return 0.0;
 }
 
-const char* title_of(PlotError error) {
+const char* name_of(PlotError error) {
     switch (error) {
         case PlotError::relative_rmse: return "relative RMSE";
         case PlotError::p999_relative: return "99.9th percentile of the pixels' relative error";
@@ -30,9 +30,9 @@ const char* title_of(PlotError error) {
 
 Plot plot_of(const SceneMeasurement& scene, PlotCost cost, PlotError error) {
     Plot plot;
-    plot.title = scene.scene.name + ": " + title_of(error);
+    plot.title = scene.scene.name;
     plot.x_title = cost == PlotCost::seconds ? "processor seconds" : "shadow rays a pixel";
-    plot.y_title = "error";
+    plot.y_title = name_of(error);
     plot.least_y = smallest_error;
     plot.mark = PlotMark{cost_of(scene.exhaustive, cost), "exhaustive sum"};
     for (const Curve& curve : scene.curves) {

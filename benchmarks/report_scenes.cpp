@@ -24,8 +24,12 @@ constexpr int usual_height = 9;
 
 bool is_builtin(const std::string& scene) { return scene.starts_with("builtin:"); }
 
-std::shared_ptr<const render::Scene> load(render::Options& options) {
-    auto scene = std::make_shared<render::Scene>(render::prepare_scene(options));
+/// `name` has the scene's options.
+std::shared_ptr<const render::Scene> load(render::Options& options, const std::string& name) {
+    auto scene = std::make_shared<render::Scene>();
+    try {
+        *scene = render::prepare_scene(options);
+    } catch (const render::usage_error& problem) { throw lightcuts::invalid_input(name + ": " + problem.what()); }
     if (options.indirect > 0) {
         const render::RayScene rays(*scene);
         render::add_virtual_lights(*scene, rays, options.indirect, render::shade_of(options), options.seed);
@@ -48,10 +52,14 @@ std::vector<render::SheetCamera> cameras_of(const std::string& file, const rende
     return {{camera, usual_width, usual_height}};
 }
 
-/// A file's without its folders and extension, and the options that `text` has besides.
-std::string short_name(const std::string& text, const std::string& file) {
-    if (is_builtin(text)) return text;
-    return std::filesystem::path(file).stem().string() + text.substr(file.size());
+/// `text` with neither the folders of its files nor the extension of the scene's.
+std::string short_name(const std::string& text, const render::Options& options) {
+    std::string name = text;
+    if (const std::string map = options.env.string(); !map.empty()) {
+        name.replace(name.find(map, name.find('?')), map.size(), options.env.filename().string());
+    }
+    if (!is_builtin(text)) name.replace(0, options.scene.size(), std::filesystem::path(options.scene).stem().string());
+    return name;
 }
 
 /// Sets the size of the picture: what was asked for, the rest in the proportions of the camera's own.
@@ -85,12 +93,12 @@ std::vector<ReportScene> load_report_scenes(const ReportSceneOptions& options) {
     std::vector<ReportScene> result;
     for (const std::string& name : options.scenes) {
         render::Options lighting = scene_options(name, options.area_points);
-        const std::shared_ptr<const render::Scene> scene = load(lighting);
+        const std::shared_ptr<const render::Scene> scene = load(lighting, name);
         std::vector<render::SheetCamera> cameras = cameras_of(lighting.scene, *scene);
         if (options.first_camera) cameras.resize(1);
         for (const render::SheetCamera& camera : cameras) {
             ReportScene& seen = result.emplace_back();
-            seen.name = short_name(name, lighting.scene);
+            seen.name = short_name(name, lighting);
             if (cameras.size() > 1) seen.name += ", camera " + camera.camera.name;
             seen.scene = scene;
             seen.camera = camera.camera;

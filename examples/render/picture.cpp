@@ -151,21 +151,25 @@ void write_png(const std::filesystem::path& path, int width, int height, const s
 }
 
 ToneCurve tone_curve(const Picture& picture) {
-    std::vector<float> bright;
-    double log_sum = 0;
+    std::vector<float> lit;
     for (const glm::vec3& pixel : picture.pixels) {
         const float l = luminance(pixel);
-        if (!(l > 0.0f) || !std::isfinite(l)) continue;
-        bright.push_back(l);
-        log_sum += std::log(static_cast<double>(l));
+        if (l > 0.0f && std::isfinite(l)) lit.push_back(l);
     }
-    if (bright.empty()) return {};
+    if (lit.empty()) return {};
 
-    const double exposure = 0.18 / std::exp(log_sum / static_cast<double>(bright.size()));
-    const auto nearly_brightest = bright.begin() +
-                                  static_cast<std::ptrdiff_t>(0.995 * static_cast<double>(bright.size() - 1));
-    std::nth_element(bright.begin(), nearly_brightest, bright.end());
-    return {exposure, std::max(1.0, static_cast<double>(*nearly_brightest) * exposure)};
+    std::sort(lit.begin(), lit.end());
+    const auto percentile = [&](double share) {
+        return static_cast<double>(lit[static_cast<std::size_t>(share * static_cast<double>(lit.size() - 1))]);
+    };
+    // What looks black is no reason to expose the rest for longer. Lamps in view, which may be millions of times as
+    // bright as what they light, rarely fill a fifth of a picture, and so leave this measure alone.
+    const double visible = 1e-3 * percentile(0.8);
+    double log_sum = 0;
+    const auto first = std::find_if(lit.begin(), lit.end(), [&](float l) { return static_cast<double>(l) >= visible; });
+    for (auto l = first; l != lit.end(); ++l) log_sum += std::log(static_cast<double>(*l));
+    const double exposure = 0.18 / std::exp(log_sum / static_cast<double>(lit.end() - first));
+    return {exposure, std::max(1.0, percentile(0.995) * exposure)};
 }
 
 std::vector<glm::vec3> tone_mapped(const Picture& picture, const ToneCurve& curve) {

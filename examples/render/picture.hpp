@@ -56,8 +56,9 @@ struct ToneCurve {
     double white = 1;  ///< exposed radiance that becomes 1
 };
 
-/// The curve with which the log-average luminance of `picture` (of pixels that are not black) becomes a middle grey
-/// of 0.18 and its 99.5th percentile white.
+/// The curve with which the log-average luminance of `picture` becomes a middle grey of 0.18 and its 99.5th percentile
+/// white. Black pixels count for neither, and for the average none that are a thousand times darker than the 80th
+/// percentile.
 ToneCurve tone_curve(const Picture& picture);
 
 /// The pixels as colours in [0, 1]. Pictures that are to be compared need one curve.

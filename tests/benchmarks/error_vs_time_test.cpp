@@ -116,6 +116,7 @@ TEST_F(ErrorVsTime, RefusesInOneLineAndWritesNothing) {
         {"--scene bad/room.obj", 1, "bad/scene.json: cameras[0]: 'target' is missing"},
         {"--scene bad/room.obj --area-points 0", 1, "bad/room.obj: "},
         {"--scene builtin:none", 1, "builtin:none"},
+        {"--scene builtin:hall?env-scale=2", 1, "builtin:hall?env-scale=2: --env-scale needs --env"},
         {"--scene builtin:hall?indirect=some", 1, "builtin:hall?indirect=some: --indirect"},
         {"--scene bad/room.obj?indirect=10&method=power", 1, "'method=power'"},
         {"--output no/such/folder", 1, "no/such/folder"},

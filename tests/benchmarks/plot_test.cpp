@@ -54,6 +54,21 @@ TEST(Plot, TakesWhatHasNoPlaceOnPaper) {
     EXPECT_EQ(to_svg(plot({{3.0, 0.1, ""}})).find("nan"), std::string::npos);
 }
 
+TEST(Plot, ShrinksALongTitle) {
+    const auto title_size = [](std::size_t letters) {
+        Plot named = plot({{1.0, 0.1, ""}});
+        named.title = std::string(letters, 'm');
+        const std::string svg = to_svg(named);
+        static const std::regex bold("font-size=\"([0-9.]+)\" font-weight=\"bold\"");
+        std::smatch match;
+        return std::regex_search(svg, match, bold) ? std::stod(match[1]) : 0.0;
+    };
+    EXPECT_EQ(title_size(20), 14.0);
+    EXPECT_GT(title_size(100), 8.0);
+    EXPECT_LT(title_size(100), 12.0);
+    EXPECT_EQ(title_size(0), 14.0);
+}
+
 TEST(Plot, EscapesItsTexts) {
     const std::string svg = to_svg(plot({{1.0, 0.1, "\"x\" & y"}}));
     EXPECT_NE(svg.find("a &lt; b"), std::string::npos);

@@ -112,6 +112,17 @@ TEST(ToneMapping, OfOneCurveShowsEqualRadianceAlike) {
     EXPECT_NE(tone_mapped(other)[0], colors[2]);
 }
 
+TEST(ToneMapping, ExposesForWhatIsNotNearlyBlack) {
+    // Half of the picture is as good as black; a lamp is very bright.
+    Picture picture(400, 1);
+    for (std::size_t i = 0; i < 400; ++i) picture.pixels[i] = glm::vec3(i % 2 == 0 ? 1e-7f : 1.0f);
+    picture.pixels[0] = glm::vec3(1e7f);
+    EXPECT_NEAR(render::tone_curve(picture).exposure, 0.18, 0.02);
+    // What is still to be seen counts: half of the pixels are a hundred times darker, so the mean is ten times.
+    for (std::size_t i = 0; i < 400; i += 2) picture.pixels[i] = glm::vec3(1e-2f);
+    EXPECT_NEAR(render::tone_curve(picture).exposure, 1.8, 0.02);
+}
+
 TEST(ToneMapping, TakesBlackAndBrokenPixels) {
     Picture picture(4, 1);
     EXPECT_EQ(tone_mapped(picture), std::vector<glm::vec3>(4, glm::vec3(0.0f)));
