@@ -20,7 +20,6 @@ Workload::Workload(const std::string& scene, int width, int height)
     if (scene_->cameras.empty()) throw lightcuts::invalid_input(scene + ": has no camera; choose another scene");
     const render::View view(scene_->cameras.front(), width, height);
     const render::SurfaceFinder finder(*scene_, *rays_, render::shade_of(options_));
-    std::vector<render::SurfacePoint> points;
     constexpr int tile = 16;  // the renderer's order: neighbours share cache lines of the trees
     for (int top = 0; top < height; top += tile) {
         for (int left = 0; left < width; left += tile) {
@@ -28,13 +27,13 @@ Workload::Workload(const std::string& scene, int width, int height)
                 for (int x = left; x < std::min(left + tile, width); ++x) {
                     const auto pixel = static_cast<std::uint32_t>(y * width + x);
                     finder.follow(view.ray(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f), pixel, 0,
-                                  points);
+                                  points_);
                 }
             }
         }
     }
-    receivers_.reserve(points.size());
-    for (const render::SurfacePoint& p : points) {
+    receivers_.reserve(points_.size());
+    for (const render::SurfacePoint& p : points_) {
         receivers_.push_back(
             {p.position, render::SurfaceMaterial(p), p.ray_origin, static_cast<std::uint32_t>(receivers_.size())});
     }
