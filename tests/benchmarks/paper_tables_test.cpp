@@ -57,7 +57,7 @@ TEST_F(PaperTables, HaveARowForAllThatIsAsked) {
     EXPECT_EQ(all.at("scaling")[1].at("rows")[1].at("lights"), 50);
 
     ASSERT_EQ(all.at("bounds").size(), 1u);
-    // An exact bound is never above another, so clusters are split earlier by none but the order of rounds.
+    // No valid bound can do better, but for what the order of rounds does.
     EXPECT_GE(all.at("bounds")[0].at("over_exact"), 0.99);
 
     ASSERT_EQ(all.at("speed-up").size(), 1u);
