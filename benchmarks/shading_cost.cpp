@@ -4,15 +4,11 @@
 #include <cmath>
 #include <utility>
 
-#include "tile_order.hpp"
-#include "view.hpp"
 #include "workload.hpp"
 
 namespace benchmark {
 
 namespace {
-
-constexpr int tile_side = 16;  // the renderer's
 
 double sum_of_channels(const glm::vec3& v) { return static_cast<double>(v.x) + v.y + v.z; }
 
@@ -42,18 +38,8 @@ std::vector<render::SurfacePoint> spread(std::span<const render::SurfacePoint> p
     return some;
 }
 
-ShadedPoints::ShadedPoints(render::Scene scene, int width, int height) : scene_(std::move(scene)), rays_(scene_) {
-    const render::View view(scene_.cameras.front(), width, height);
-    const render::SurfaceFinder finder(scene_, rays_, render::Shade::full);
-    for (const render::Tile& tile : render::tiles_of(width, height, tile_side)) {
-        for (int y = tile.y0; y < tile.y1; ++y) {
-            for (int x = tile.x0; x < tile.x1; ++x) {
-                const auto pixel = static_cast<std::uint32_t>(y * width + x);
-                finder.follow(view.ray(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f), pixel, 0, points_);
-            }
-        }
-    }
-}
+ShadedPoints::ShadedPoints(render::Scene scene, int width, int height, render::Shade shade)
+    : scene_(std::move(scene)), rays_(scene_), points_(points_seen(scene_, rays_, width, height, shade)) {}
 
 std::vector<render::SurfacePoint> ShadedPoints::with_clear_view() const {
     render::Scene nothing;

@@ -21,7 +21,7 @@ std::vector<render::SurfacePoint> spread(std::span<const render::SurfacePoint> p
 class ShadedPoints {
 public:
     /// Keeps `scene`, which its first camera looks at.
-    ShadedPoints(render::Scene scene, int width, int height);
+    ShadedPoints(render::Scene scene, int width, int height, render::Shade shade = render::Shade::full);
 
     const render::Scene& scene() const { return scene_; }
     const render::RayScene& rays() const { return rays_; }

@@ -10,9 +10,9 @@
 #include <lightcuts/source/area.hpp>
 #include <lightcuts/source/environment.hpp>
 
-#include "emitters.hpp"
 #include "load_scene.hpp"
-#include "spheres.hpp"
+#include "prepare_scene.hpp"
+#include "scene_options.hpp"
 
 namespace benchmark {
 
@@ -34,17 +34,9 @@ glm::vec3 sky(const glm::dvec3& direction) {
 
 }  // namespace
 
-std::string builtin_or(const std::string& name, const std::string& otherwise) {
-    const std::vector<std::string> names = render::builtin_names();
-    const bool known = std::find(names.begin(), names.end(), name) != names.end();
-    return "builtin:" + (known ? name : otherwise);
-}
-
-render::Scene scene_with_lights(const std::string& name, std::size_t points) {
-    render::Scene scene = render::load_scene(name);
-    render::add_emitter_lights(scene, points);
-    render::add_sphere_lights(scene, points, 1);
-    return scene;
+render::Scene scene_with_lights(const std::string& name, std::uint32_t points) {
+    render::Options options = scene_options(name, points);
+    return render::prepare_scene(options);
 }
 
 render::Scene room_with_lamp(std::size_t points) {

@@ -13,6 +13,8 @@
 #include <nlohmann/json.hpp>
 
 #include "particle_cost.hpp"
+#include "prepare_scene.hpp"
+#include "scene_options.hpp"
 #include "shading_cost.hpp"
 #include "source_scenes.hpp"
 
@@ -23,13 +25,15 @@ using namespace benchmark;
 struct Settings {
     std::string only;
     int width = 96, height = 72, runs = 5, threads = 2;
-    std::size_t area_points = 64, virtual_lights = 1000000, error_points = 48;
+    std::uint32_t area_points = 64;
+    std::size_t virtual_lights = 1000000, error_points = 48;
     std::vector<std::size_t> environment_lights{3000, 10000, 30000, 100000};
     std::vector<std::size_t> lamp_lights{1, 16, 64};
     std::string usual = "builtin:hall";
-    std::string environment = builtin_or("tableau", "directional");
+    std::vector<std::string> environments{"builtin:directional", "builtin:tableau?materials=diffuse",
+                                          "builtin:tableau"};
     std::vector<std::string> few{"builtin:omni?lights=64", "builtin:omni?lights=128", "builtin:omni?lights=256"};
-    std::vector<std::string> many{builtin_or("screens", "surfaces?lights=300000")};
+    std::vector<std::string> many{"builtin:screens"};
 };
 
 /// Every part's figures on one sheet.
@@ -87,10 +91,11 @@ void particles(const Settings& set, Table& table) {
     table.add("particles", set.usual, "... on the wall", cost, made.wall_ratio);
 }
 
-void environment(const Settings& set, Table& table) {
-    render::Scene scene = scene_with_lights(set.environment, set.area_points);
+void under_map(const std::string& name, const Settings& set, Table& table) {
+    const render::Options options = scene_options(name, set.area_points);
+    render::Scene scene = scene_with_lights(name, set.area_points);
     surround(scene);
-    const ShadedPoints where(scene, set.width, set.height);
+    const ShadedPoints where(scene, set.width, set.height, render::shade_of(options));
     const std::vector<render::SurfacePoint> some = where.about(set.error_points);
     std::vector<TimedMethod> methods;
     std::vector<double> errors;
@@ -104,9 +109,13 @@ void environment(const Settings& set, Table& table) {
     }
     run_by_turns(methods, set.runs);
     for (std::size_t i = 0; i < methods.size(); ++i) {
-        table.add("environment", set.environment, "lightcuts", methods[i].cost(),
-                  time_ratio(methods[i].cost(), methods[0].cost()), errors[i]);
+        table.add("environment", name, "lightcuts", methods[i].cost(), time_ratio(methods[i].cost(), methods[0].cost()),
+                  errors[i]);
     }
+}
+
+void environment(const Settings& set, Table& table) {
+    for (const std::string& name : set.environments) under_map(name, set, table);
 }
 
 void few_lights(const Settings& set, Table& table) {
@@ -166,7 +175,7 @@ int main(int argc, char** argv) {
     app.add_option("--area-points", set.area_points, "lights per emissive surface");
     app.add_option("--virtual-lights", set.virtual_lights, "to be generated")->check(CLI::PositiveNumber);
     app.add_option("--usual", set.usual, "where virtual lights are generated, and what `many` is compared with");
-    app.add_option("--environment", set.environment, "seen under its own map, else under a sky");
+    app.add_option("--environment", set.environments, "scenes under their own map, else under a sky");
     app.add_option("--environment-lights", set.environment_lights, "that stand for the map")->delimiter(',');
     app.add_option("--error-points", set.error_points, "where the map's lights are summed up one by one");
     app.add_option("--lamp-lights", set.lamp_lights, "that stand for the only lamp of a room")->delimiter(',');

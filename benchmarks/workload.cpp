@@ -1,14 +1,34 @@
 #include "workload.hpp"
 
+#include <algorithm>
+
 #include <lightcuts/core/invalid_input.hpp>
 
 #include "indirect.hpp"
 #include "prepare_scene.hpp"
 #include "scene_options.hpp"
-#include "surface.hpp"
+#include "tile_order.hpp"
 #include "view.hpp"
 
 namespace benchmark {
+
+std::vector<render::SurfacePoint> points_seen(const render::Scene& scene, const render::RayScene& rays, int width,
+                                              int height, render::Shade shade) {
+    constexpr int tile_side = 16;  // the renderer's
+    if (scene.cameras.empty()) throw lightcuts::invalid_input(scene.name + ": has no camera; choose another scene");
+    const render::View view(scene.cameras.front(), width, height);
+    const render::SurfaceFinder finder(scene, rays, shade);
+    std::vector<render::SurfacePoint> points;
+    for (const render::Tile& tile : render::tiles_of(width, height, tile_side)) {
+        for (int y = tile.y0; y < tile.y1; ++y) {
+            for (int x = tile.x0; x < tile.x1; ++x) {
+                const auto pixel = static_cast<std::uint32_t>(y * width + x);
+                finder.follow(view.ray(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f), pixel, 0, points);
+            }
+        }
+    }
+    return points;
+}
 
 Workload::Workload(const std::string& scene, int width, int height)
     : options_(scene_options(scene)), scene_(std::make_unique<render::Scene>(render::prepare_scene(options_))),
@@ -17,21 +37,7 @@ Workload::Workload(const std::string& scene, int width, int height)
     render::add_virtual_lights(*scene_, *rays_, options_.indirect, render::shade_of(options_), options_.seed);
     lights_ = std::make_unique<render::SceneLights>(*scene_, options_);
 
-    if (scene_->cameras.empty()) throw lightcuts::invalid_input(scene + ": has no camera; choose another scene");
-    const render::View view(scene_->cameras.front(), width, height);
-    const render::SurfaceFinder finder(*scene_, *rays_, render::shade_of(options_));
-    constexpr int tile = 16;  // the renderer's order: neighbours share cache lines of the trees
-    for (int top = 0; top < height; top += tile) {
-        for (int left = 0; left < width; left += tile) {
-            for (int y = top; y < std::min(top + tile, height); ++y) {
-                for (int x = left; x < std::min(left + tile, width); ++x) {
-                    const auto pixel = static_cast<std::uint32_t>(y * width + x);
-                    finder.follow(view.ray(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f), pixel, 0,
-                                  points_);
-                }
-            }
-        }
-    }
+    points_ = points_seen(*scene_, *rays_, width, height, render::shade_of(options_));
     receivers_.reserve(points_.size());
     for (const render::SurfacePoint& p : points_) {
         receivers_.push_back(

@@ -23,6 +23,11 @@ namespace benchmark {
 
 using Receiver = lightcuts::Receiver<render::SurfaceMaterial>;
 
+/// The points that a small picture by the scene's first camera shades, in the renderer's order: neighbours share cache
+/// lines of the trees. throws: lightcuts::invalid_input if there is no camera.
+std::vector<render::SurfacePoint> points_seen(const render::Scene& scene, const render::RayScene& rays, int width,
+                                              int height, render::Shade shade = render::Shade::full);
+
 /// A scene with its lights in trees and the points that a small picture of it shades.
 class Workload {
 public:

@@ -60,7 +60,7 @@ void expect_shading(const Forest& forest) {
     estimate_all(scalar, SeparateBounds{});
     estimate_all(batched, LeastPolicy{});
 
-    const LightcutOptions all{.error_ratio = 0.0f, .max_cut = 0};
+    const LightcutOptions all{.error_ratio = 0.0f, .max_cut = 0, .few_lights = 0};
     expect_exact(shade(forest, receiver, AlwaysVisible{}, all).radiance);
     expect_exact(shade(forest, receiver, scalar, all).radiance);
     expect_exact(shade(forest, receiver, batched, all).radiance);

@@ -32,8 +32,8 @@ struct PaperTables : testing::Test {
 TEST_F(PaperTables, HaveARowForAllThatIsAsked) {
     const auto result = run(
         "--cuts builtin:hall?area-points=4&indirect=300 builtin:directional?lights=200 "
-        "--hall-points 1,4 --map-lights 20,50 --bounds builtin:omni?lights=100 "
-        "--speed-up builtin:omni?lights=100 --thresholds builtin:omni?lights=100 "
+        "--hall-points 1,4 --map-lights 20,50 --bounds builtin:omni?lights=300 "
+        "--speed-up builtin:omni?lights=300 --thresholds builtin:omni?lights=300 "
         "--error-ratios 0.5,0 --representatives 1,4");
     ASSERT_EQ(result.status, 0) << result.err;
     EXPECT_EQ(result.err, "");

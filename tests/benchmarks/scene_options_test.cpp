@@ -43,7 +43,7 @@ TEST(SceneOptions, LeaveABuiltinSceneItsOwn) {
 TEST(SceneOptions, RefuseWhatIsNone) {
     for (const std::string name :
          {"builtin:hall?method=power", "builtin:hall?indirect", "builtin:hall?indirect=many", "room.glb?rotated=1",
-          "builtin:hall?env-scale=2", "builtin:hall?indirect=1&indirect=2", "builtin:hall?&indirect=1"}) {
+          "builtin:hall?indirect=1&indirect=2", "builtin:hall?&indirect=1"}) {
         try {
             scene_options(name);
             ADD_FAILURE() << name;

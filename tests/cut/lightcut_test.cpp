@@ -64,7 +64,8 @@ TEST(Shade, GivesMaterialsUnitVectorsOnly) {
     const LightTree tree(lights);
     std::size_t calls = 0;
     const Receiver receiver(V(0.0f), Expectant{&calls});
-    EXPECT_GT(shade(tree, receiver, AlwaysVisible{}, {.error_ratio = 0.0f, .max_cut = 0}).radiance, 0.0f);
+    EXPECT_GT(shade(tree, receiver, AlwaysVisible{}, {.error_ratio = 0.0f, .max_cut = 0, .few_lights = 0}).radiance,
+              0.0f);
     EXPECT_GT(exhaustive(tree, receiver).radiance, 0.0f);
     EXPECT_GT(calls, 0u);
 }
@@ -86,7 +87,7 @@ TEST(Shade, OfSeveralTreesIsTheSumOverThem) {
     const auto distant = room.distant(50);
     const LightTree a(omni);
     const LightTree b(distant);
-    const LightcutOptions all{.error_ratio = 0.0f, .max_cut = 0};
+    const LightcutOptions all{.error_ratio = 0.0f, .max_cut = 0, .few_lights = 0};
     for (const auto& receiver : room.diffuse_receivers(10)) {
         const V sum = shade(a, receiver, AlwaysVisible{}, all).radiance +
                       shade(b, receiver, AlwaysVisible{}, all).radiance;
@@ -106,9 +107,37 @@ TEST(Shade, KeepsOneClusterATreeWhateverTheLimit) {
         EXPECT_EQ(shade(forest, receiver, AlwaysVisible{}, {.max_cut = 1}).cut_size, 2u);
         EXPECT_EQ(shade(forest, receiver, AlwaysVisible{}, {.error_ratio = 0.0f, .max_cut = 3}).cut_size, 3u);
         // Beyond the number of lights a limit does not matter.
-        const auto result = shade(forest, receiver, AlwaysVisible{}, {.error_ratio = 0.0f, .max_cut = 1000});
+        const auto result = shade(forest, receiver, AlwaysVisible{},
+                                  {.error_ratio = 0.0f, .max_cut = 1000, .few_lights = 0});
         EXPECT_LE(result.cut_size, 100u);
         EXPECT_EQ(result.stop, StopReason::converged);
+    }
+}
+
+// No bound is asked for: what shades so few is the sum itself, light by light.
+TEST(Shade, StartsWithAllLightsWhereTheyAreFew) {
+    Room<V> room(12);
+    auto omni = room.omni(60);
+    omni[7].intensity = V(0.0f);
+    const auto oriented = room.oriented(68);
+    const LightTree a(omni);
+    const LightTree b(oriented);
+    const LightForest forest(a, b);
+    const Occluders occluders = room.occluders();
+    const BatchedOccluders oracle{occluders};
+    EstimateScratch<V> scratch;
+    for (const auto& receiver : room.diffuse_receivers(10)) {
+        const auto exact = exhaustive(forest, receiver, oracle, scratch);
+        const auto cut = shade(forest, receiver, oracle);
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(cut.radiance[c], exact.radiance[c], 1e-6f * exact.radiance[c]);
+        EXPECT_EQ(cut.error_bound, V(0.0f));
+        EXPECT_EQ(cut.cut_size, 127u) << "one is dark";
+        EXPECT_EQ(cut.queries, exact.queries);
+        EXPECT_EQ(cut.stop, StopReason::converged);
+
+        EXPECT_LT(shade(forest, receiver, oracle, {.few_lights = 126}).cut_size, 127u);
+        EXPECT_LE(shade(forest, receiver, oracle, {.max_cut = 126}).cut_size, 126u);
+        EXPECT_EQ(shade(forest, receiver, oracle, {.max_cut = 127}).cut_size, 127u);
     }
 }
 
@@ -142,7 +171,8 @@ TEST(Shade, TracesOneRayALightAtMost) {
     Room<V> room(4);
     const auto lights = room.omni(300);
     for (const auto& receiver : room.diffuse_receivers(5)) {
-        for (const LightcutOptions& options : {LightcutOptions{}, LightcutOptions{.error_ratio = 0.0f, .max_cut = 0}}) {
+        for (const LightcutOptions& options :
+             {LightcutOptions{.few_lights = 0}, LightcutOptions{.error_ratio = 0.0f, .max_cut = 0, .few_lights = 0}}) {
             const LightTree tree(lights);  // one representative a node: each light is asked about once
             std::vector<int> asked(lights.size(), 0);
             const auto result = shade(tree, receiver, Remembering{asked}, options);
@@ -182,7 +212,7 @@ TEST(Lightcut, CanBeStoppedAnywhere) {
     for (const auto& receiver : room.diffuse_receivers(10)) {
         EstimateScratch<V> scratch;
         const V exact = exhaustive(forest, receiver, oracle, scratch).radiance;
-        Lightcut cut(forest, receiver, oracle, LightcutOptions{.error_ratio = 0.01f, .max_cut = 0});
+        Lightcut cut(forest, receiver, oracle, LightcutOptions{.error_ratio = 0.01f, .max_cut = 0, .few_lights = 0});
         do {
             const CutResult<V> result = cut.result();
             for (int c = 0; c < 3; ++c) {
@@ -211,7 +241,8 @@ TEST(Shade, LooksAtEveryChannel) {
     EstimateScratch<V> scratch;
     for (const auto& receiver : room.diffuse_receivers(20)) {
         const V exact = exhaustive(LightForest(tree), receiver, AlwaysVisible{}, scratch).radiance;
-        const auto result = shade(tree, receiver, AlwaysVisible{}, {.error_ratio = 0.01f, .max_cut = 0});
+        const auto result = shade(tree, receiver, AlwaysVisible{},
+                                  {.error_ratio = 0.01f, .max_cut = 0, .few_lights = 0});
         EXPECT_NEAR(result.radiance.z, exact.z, 0.1f * exact.z);
     }
 }

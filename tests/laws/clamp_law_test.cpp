@@ -119,9 +119,10 @@ void expect_errors_within_bounds(Room<V>& room, MakeReceivers&& make_receivers) 
     const LightTree b(indirect, {.representatives = 4});
     for (const ClampOptions& clamp : every_clamping) {
         for (const LightcutOptions& options :
-             {LightcutOptions{.clamp = clamp}, LightcutOptions{.error_ratio = 0.0f, .max_cut = 0, .clamp = clamp},
-              LightcutOptions{.error_ratio = 0.1f, .max_cut = 30, .clamp = clamp},
-              LightcutOptions{.max_cut = 0, .adaptation = 0.05f, .clamp = clamp}}) {
+             {LightcutOptions{.few_lights = 0, .clamp = clamp},
+              LightcutOptions{.error_ratio = 0.0f, .max_cut = 0, .few_lights = 0, .clamp = clamp},
+              LightcutOptions{.error_ratio = 0.1f, .max_cut = 30, .few_lights = 0, .clamp = clamp},
+              LightcutOptions{.max_cut = 0, .few_lights = 0, .adaptation = 0.05f, .clamp = clamp}}) {
             expect_error_within_bound(LightForest(a, b), receivers, occluders, options);
             expect_error_within_bound(LightForest(b), receivers, occluders, options);
         }
@@ -149,7 +150,7 @@ TEST(Clamping, TamesLightsAtTheReceiver) {
     const LightForest forest(a, b);
     for (std::size_t i = 0; i < receivers.size(); i += 2) {
         const auto wild = shade(forest, receivers[i]);
-        const auto tame = shade(forest, receivers[i], AlwaysVisible{}, {.clamp = automatic_clamping});
+        const auto tame = shade(forest, receivers[i], AlwaysVisible{}, {.few_lights = 0, .clamp = automatic_clamping});
         const auto fixed = shade(forest, receivers[i], AlwaysVisible{}, {.clamp = {.radiance = 1e-3f}});
         for (int c = 0; c < 3; ++c) {
             EXPECT_GT(wild.radiance[c], 10.0f * tame.radiance[c]);
@@ -186,7 +187,8 @@ TEST(Clamping, ChangesNoBitIfItIsOff) {
     const LightTree c(lights);
     const Occluders occluders = room.occluders();
     const BatchedOccluders oracle{occluders, 0.1f};
-    for (const LightcutOptions& options : {LightcutOptions{}, LightcutOptions{.error_ratio = 0.005f, .max_cut = 60}}) {
+    for (const LightcutOptions& options :
+         {LightcutOptions{.few_lights = 0}, LightcutOptions{.error_ratio = 0.005f, .max_cut = 60, .few_lights = 0}}) {
         std::vector<CutResult<V>> unmarked(receivers.size()), off(receivers.size());
         LightcutScratch<V> scratch;
         LightcutScratch<V, true> clamping;
@@ -214,7 +216,7 @@ TEST(Clamping, DoesNotDependOnTilesOrThreads) {
         execute(receivers.size() / tile, [&](std::size_t t) {
             scratch_of<decltype(forest)> scratch;
             shade(forest, std::span(receivers).subspan(t * tile, tile), oracle,
-                  std::span(results).subspan(t * tile, tile), scratch, {.clamp = automatic_clamping});
+                  std::span(results).subspan(t * tile, tile), scratch, {.few_lights = 0, .clamp = automatic_clamping});
         });
         return results;
     };
@@ -234,7 +236,7 @@ TEST(Clamping, IsNotFooledByDarkRepresentatives) {
     const auto slit = [](const auto&, const Virtual& light) { return light.position.z > 1.5f; };
     for (const auto& receiver : room.diffuse_receivers(30)) {
         const auto exact = exhaustive(tree, receiver, slit, automatic_clamping);
-        const auto result = shade(tree, receiver, slit, {.max_cut = 0, .clamp = automatic_clamping});
+        const auto result = shade(tree, receiver, slit, {.max_cut = 0, .few_lights = 0, .clamp = automatic_clamping});
         for (int c = 0; c < 3; ++c) {
             EXPECT_GE(result.radiance[c], 0.5f * exact.radiance[c]);
             EXPECT_LE(std::fabs(result.radiance[c] - exact.radiance[c]),
@@ -253,13 +255,13 @@ TEST(Clamping, OfDarknessIsDarkness) {
     const auto blocked = [](const auto&, const auto&) { return false; };
     for (const ClampOptions& clamp : every_clamping) {
         for (const auto& receiver : room.diffuse_receivers(10)) {
-            const auto result = shade(LightForest(a, b), receiver, blocked, {.clamp = clamp});
+            const auto result = shade(LightForest(a, b), receiver, blocked, {.few_lights = 0, .clamp = clamp});
             EXPECT_EQ(result.radiance, V(0.0f));
             for (int c = 0; c < 3; ++c) EXPECT_FALSE(std::isnan(result.error_bound[c] + result.clamp_threshold[c]));
             const auto exact = exhaustive(LightForest(a, b), receiver, blocked, clamp);
             EXPECT_EQ(exact.radiance, V(0.0f));
             if (clamp.is_automatic()) { EXPECT_EQ(exact.clamp_threshold, V(0.0f)); }
-            const auto lit = shade(b, receiver, AlwaysVisible{}, {.clamp = clamp});
+            const auto lit = shade(b, receiver, AlwaysVisible{}, {.few_lights = 0, .clamp = clamp});
             EXPECT_EQ(lit.radiance.z, 0.0f);
             for (int c = 0; c < 3; ++c) EXPECT_TRUE(lit.radiance[c] >= 0.0f && lit.radiance[c] < infinity);
         }

@@ -22,7 +22,7 @@ namespace {
 
 using V = glm::vec3;
 constexpr float infinity = std::numeric_limits<float>::infinity();
-constexpr LightcutOptions exact_options{.error_ratio = 0.0f, .max_cut = 0};
+constexpr LightcutOptions exact_options{.error_ratio = 0.0f, .max_cut = 0, .few_lights = 0};
 
 bool is_finite_colour(const V& v) { return v.x - v.x == 0.0f && v.y - v.y == 0.0f && v.z - v.z == 0.0f; }
 
@@ -42,9 +42,11 @@ V expect_sound(const std::vector<L>& lights, const Receiver<M>& receiver, double
         EXPECT_NEAR(by_ward[c], exact[c], tolerance * static_cast<double>(exact[c]));
         EXPECT_NEAR(refined[c], exact[c], tolerance * static_cast<double>(exact[c]));
     }
-    for (const LightcutOptions& options : {LightcutOptions{}, LightcutOptions{.max_cut = 1},
-                                           LightcutOptions{.max_cut = 2}, LightcutOptions{.max_cut = lights.size()},
-                                           LightcutOptions{.error_ratio = 0.5f}, LightcutOptions{.adaptation = 1.0f}}) {
+    for (const LightcutOptions& options :
+         {LightcutOptions{}, LightcutOptions{.few_lights = 0}, LightcutOptions{.max_cut = 1}, LightcutOptions{.max_cut = 2},
+          LightcutOptions{.max_cut = lights.size(), .few_lights = 0},
+          LightcutOptions{.error_ratio = 0.5f, .few_lights = 0},
+          LightcutOptions{.few_lights = 0, .adaptation = 1.0f}}) {
         const CutResult<V> cut = shade(tree, receiver, AlwaysVisible{}, options);
         EXPECT_TRUE(is_finite_colour(cut.radiance));
         for (int c = 0; c < 3; ++c) {
@@ -149,7 +151,7 @@ TEST(StiffCase, ReceiverOnACornerAFaceOrInsideTheBox) {
             EXPECT_EQ(limited.error_bound.x, infinity);
             EXPECT_EQ(limited.stop, StopReason::limit);
         }
-        EXPECT_LT(shade(tree, receiver, AlwaysVisible{}, {.max_cut = 0}).error_bound.x, infinity);
+        EXPECT_LT(shade(tree, receiver, AlwaysVisible{}, {.max_cut = 0, .few_lights = 0}).error_bound.x, infinity);
     }
 }
 
@@ -160,7 +162,7 @@ TEST(StiffCase, EmitterCoplanarWithTheReceiverAndTouchingIt) {
     const auto receiver = floor_at({3.0f, 3.0f, 0.5f});
     EXPECT_EQ(expect_sound(lights, receiver), V(0.0f));
     const LightTree tree(lights);
-    const auto cut = shade(tree, receiver);
+    const auto cut = shade(tree, receiver, AlwaysVisible{}, {.few_lights = 0});
     EXPECT_EQ(cut.cut_size, 1u) << "the bound of an axis-aligned coplanar cluster is exactly zero";
     EXPECT_EQ(cut.error_bound, V(0.0f));
 

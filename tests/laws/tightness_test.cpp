@@ -36,7 +36,7 @@ struct TrueMaximum {
 template <class L, class M>
 double looseness(const std::vector<L>& lights, const std::vector<Receiver<M>>& receivers, const char* name) {
     const LightTree<L> tree(lights);
-    const LightcutOptions options{.error_ratio = 0.02f, .max_cut = 0};
+    const LightcutOptions options{.error_ratio = 0.02f, .max_cut = 0, .few_lights = 0};
     double ours = 0.0, separate = 0.0, best = 0.0;
     for (const auto& receiver : receivers) {
         ours += shade(tree, receiver, AlwaysVisible{}, options).cut_size;

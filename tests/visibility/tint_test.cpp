@@ -92,7 +92,7 @@ TEST(TintingOracle, IsAFractionForEachChannel) {
     GlassRoom scene(31);
     const ScalarGlass scalar{scene.occluders};
     const BatchedGlass batched{scene.occluders};
-    const LightcutOptions all{.error_ratio = 0.0f, .max_cut = 0};
+    const LightcutOptions all{.error_ratio = 0.0f, .max_cut = 0, .few_lights = 0};
     EstimateScratch<V> scratch;
     for (const R& receiver : scene.receivers) {
         const V exact = exact_by_channels(scene, receiver);
@@ -117,8 +117,10 @@ TEST(TintingOracle, KeepsTheErrorOfACutWithinItsBound) {
     GlassRoom scene(32);
     for (const R& receiver : scene.receivers) {
         const V exact = exact_by_channels(scene, receiver);
-        const CutResult<V> scalar = shade(scene.lights, receiver, ScalarGlass{scene.occluders}, {.max_cut = 0});
-        const CutResult<V> batched = shade(scene.lights, receiver, BatchedGlass{scene.occluders}, {.max_cut = 0});
+        const CutResult<V> scalar = shade(scene.lights, receiver, ScalarGlass{scene.occluders},
+                                          {.max_cut = 0, .few_lights = 0});
+        const CutResult<V> batched = shade(scene.lights, receiver, BatchedGlass{scene.occluders},
+                                           {.max_cut = 0, .few_lights = 0});
         EXPECT_EQ(scalar.radiance, batched.radiance);
         for (int k = 0; k < 3; ++k) {
             EXPECT_LE(std::fabs(batched.radiance[k] - exact[k]), batched.error_bound[k] + 1e-5f * exact[k]);

@@ -95,8 +95,17 @@ public:
             totals_.clamp.threshold.fill(static_cast<double>(options_.clamp.radiance));
             set_shares();
         }
+        const bool few = has_few_lights();
         forest_.for_each([&](std::uint32_t kind, const auto& tree) {
-            if (!tree.empty()) make_node(tree, kind, tree.topology().root(), largest_terms(tree), out);
+            if (tree.empty()) return;
+            const ClusterTree& topology = tree.topology();
+            if (few) {
+                for (ClusterTree::node_index n = 0; n < topology.size(); ++n) {
+                    if (topology.is_leaf(n)) make_node(tree, kind, n, S{}, out);
+                }
+            } else {
+                make_node(tree, kind, topology.root(), largest_terms(tree), out);
+            }
         });
     }
 
@@ -250,6 +259,13 @@ public:
 
 private:
     static constexpr double darkest = 1e150;  ///< weight of bounds where no light has arrived
+
+    /// True if the cut starts with all lights.
+    bool has_few_lights() const {
+        std::size_t lights = 0;
+        forest_.for_each([&](std::uint32_t, const auto& tree) { lights += tree.topology().item_count(); });
+        return lights <= options_.few_lights && (options_.max_cut == 0 || lights <= options_.max_cut);
+    }
 
     /// What is known of a cluster's terms without looking at it.
     template <class Tree>
