@@ -2,7 +2,6 @@
 /// number of lights from which they are the faster of the two. Prints tables and writes error.json.
 
 #include <array>
-#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <thread>
@@ -11,6 +10,7 @@
 #include <lightcuts/estimate/exhaustive.hpp>
 #include <nlohmann/json.hpp>
 
+#include "crossing.hpp"
 #include "error.hpp"
 #include "picture.hpp"
 #include "workload.hpp"
@@ -104,16 +104,6 @@ nlohmann::json measure_growth(int width, int height, int runs) {
     return {{"lights", {few.light_count(), many.light_count()}},
             {"seconds", {median(few_times), median(many_times)}},
             {"growth", median(ratios)}};
-}
-
-/// Where `ratios` of exhaustive to lightcuts time pass 1, log-linear between neighbours; 0: nowhere.
-double crossing(const std::vector<double>& lights, const std::vector<double>& ratios) {
-    for (std::size_t i = 1; i < lights.size(); ++i) {
-        if (ratios[i - 1] >= 1.0 || ratios[i] < 1.0) continue;
-        const double share = -std::log(ratios[i - 1]) / std::log(ratios[i] / ratios[i - 1]);
-        return lights[i - 1] * std::pow(lights[i] / lights[i - 1], share);
-    }
-    return 0.0;
 }
 
 nlohmann::json measure_crossing(int width, int height, int runs) {

@@ -14,11 +14,15 @@ double sum_of_channels(const glm::vec3& v) { return static_cast<double>(v.x) + v
 
 double squared(const glm::dvec3& v) { return v.x * v.x + v.y * v.y + v.z * v.z; }
 
+render::Options by(const std::string& method) {
+    render::Options options;
+    options.method = method;
+    return options;
+}
+
 /// The light of 64 samples, which are the same with any `rays`.
 std::vector<render::Shading> sampled(const ShadedPoints& where, const render::RayScene& rays) {
-    render::Options options;
-    options.method = "power";
-    const auto shader = render::make_shader(where.scene(), rays, options);
+    const auto shader = render::make_shader(where.scene(), rays, by("power"));
     const auto scratch = shader->make_scratch();
     std::vector<render::Shading> shadings(where.points().size());
     shader->shade(where.points(), shadings, *scratch);
@@ -27,15 +31,15 @@ std::vector<render::Shading> sampled(const ShadedPoints& where, const render::Ra
 
 }  // namespace
 
-ShadedPoints::ShadedPoints(render::Scene scene, int width, int height, render::Shade shade)
-    : scene_(std::move(scene)), rays_(scene_), points_(points_seen(scene_, rays_, width, height, shade)) {}
-
-std::vector<render::SurfacePoint> ShadedPoints::about(std::size_t count) const {
-    const std::size_t stride = std::max<std::size_t>(1, points_.size() / std::max<std::size_t>(1, count));
+std::vector<render::SurfacePoint> spread(std::span<const render::SurfacePoint> points, std::size_t count) {
+    const std::size_t stride = std::max<std::size_t>(1, points.size() / std::max<std::size_t>(1, count));
     std::vector<render::SurfacePoint> some;
-    for (std::size_t i = 0; i < points_.size(); i += stride) some.push_back(points_[i]);
+    for (std::size_t i = 0; i < points.size(); i += stride) some.push_back(points[i]);
     return some;
 }
+
+ShadedPoints::ShadedPoints(render::Scene scene, int width, int height, render::Shade shade)
+    : scene_(std::move(scene)), rays_(scene_), points_(points_seen(scene_, rays_, width, height, shade)) {}
 
 std::vector<render::SurfacePoint> ShadedPoints::with_clear_view() const {
     render::Scene nothing;
@@ -51,13 +55,14 @@ std::vector<render::SurfacePoint> ShadedPoints::with_clear_view() const {
 
 TimedMethod::TimedMethod(render::Scene scene, const render::RayScene& rays,
                          std::span<const render::SurfacePoint> points, const std::string& method)
+    : TimedMethod(std::move(scene), rays, points, by(method)) {}
+
+TimedMethod::TimedMethod(render::Scene scene, const render::RayScene& rays,
+                         std::span<const render::SurfacePoint> points, const render::Options& options)
     : scene_(std::make_unique<render::Scene>(std::move(scene))), points_(points), shadings_(points.size()) {
-    render::Options options;
-    options.method = method;
     shader_ = render::make_shader(*scene_, rays, options);
     scratch_ = shader_->make_scratch();
-    cost_.lights = scene_->omni.size() + scene_->oriented.size() + scene_->spots.size() + scene_->directional.size() +
-                   scene_->sphere_points.size() + scene_->virtual_lights.size();
+    cost_.lights = scene_->light_count();
     cost_.points = points.size();
 }
 

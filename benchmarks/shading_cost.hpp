@@ -14,6 +14,9 @@
 
 namespace benchmark {
 
+/// Every `stride`-th point, such that about `count` are left, but at least one.
+std::vector<render::SurfacePoint> spread(std::span<const render::SurfacePoint> points, std::size_t count);
+
 /// The points that a small picture of a scene shades, in the renderer's order.
 class ShadedPoints {
 public:
@@ -24,8 +27,7 @@ public:
     const render::RayScene& rays() const { return rays_; }
     const std::vector<render::SurfacePoint>& points() const { return points_; }
 
-    /// Every `stride`-th point, such that about `count` are left, but at least one.
-    std::vector<render::SurfacePoint> about(std::size_t count) const;
+    std::vector<render::SurfacePoint> about(std::size_t count) const { return spread(points_, count); }
     /// The points from which at least 95 % of the light that would come without shadows is seen to come.
     std::vector<render::SurfacePoint> with_clear_view() const;
 
@@ -51,6 +53,9 @@ public:
     /// `scene`: with the surfaces of `rays`. `method`: as the renderer's option. `rays` and `points` are kept.
     TimedMethod(render::Scene scene, const render::RayScene& rays, std::span<const render::SurfacePoint> points,
                 const std::string& method);
+    /// The same by a method with options of its own.
+    TimedMethod(render::Scene scene, const render::RayScene& rays, std::span<const render::SurfacePoint> points,
+                const render::Options& options);
 
     /// Shades all points once more.
     void run();

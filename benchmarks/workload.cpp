@@ -37,10 +37,9 @@ Workload::Workload(const std::string& scene, int width, int height)
     render::add_virtual_lights(*scene_, *rays_, options_.indirect, render::shade_of(options_), options_.seed);
     lights_ = std::make_unique<render::SceneLights>(*scene_, options_);
 
-    const std::vector<render::SurfacePoint> points = points_seen(*scene_, *rays_, width, height,
-                                                                 render::shade_of(options_));
-    receivers_.reserve(points.size());
-    for (const render::SurfacePoint& p : points) {
+    points_ = points_seen(*scene_, *rays_, width, height, render::shade_of(options_));
+    receivers_.reserve(points_.size());
+    for (const render::SurfacePoint& p : points_) {
         receivers_.push_back(
             {p.position, render::SurfaceMaterial(p), p.ray_origin, static_cast<std::uint32_t>(receivers_.size())});
     }

@@ -43,6 +43,11 @@ public:
         return lights_->visit(f);
     }
     std::span<const Receiver> receivers() const { return receivers_; }
+    /// What the receivers were made of, in the same order.
+    std::span<const render::SurfacePoint> points() const { return points_; }
+    const render::Scene& scene() const { return *scene_; }
+    const render::RayScene& rays() const { return *rays_; }
+    const render::Options& options() const { return options_; }
     RTCScene embree_scene() const { return rays_->embree_scene(); }
     render::OpaqueOracle oracle() const { return {*scene_, *rays_}; }
 
@@ -51,6 +56,7 @@ private:
     std::unique_ptr<render::Scene> scene_;
     std::unique_ptr<render::RayScene> rays_;
     std::unique_ptr<render::SceneLights> lights_;
+    std::vector<render::SurfacePoint> points_;
     std::vector<Receiver> receivers_;
 };
 
