@@ -18,6 +18,11 @@ void error_ratio(Options& options, double value) {
     options.representatives = representatives;
 }
 
+void error_ratio_of_large_cuts(Options& options, double value) {
+    error_ratio<1>(options, value);
+    options.max_cut = 4000;
+}
+
 }  // namespace
 
 std::span<const ReportMethod> report_methods() {
@@ -32,6 +37,7 @@ std::span<const ReportMethod> report_methods() {
         {"stochastic lightcuts", "stochastic-lightcuts", "samples", samples, counts},
         {"lightcuts", "lightcuts", "error ratio", error_ratio<1>, ratios},
         {"lightcuts, 8 representatives", "lightcuts", "error ratio", error_ratio<8>, ratios},
+        {"lightcuts of up to 4000", "lightcuts", "error ratio", error_ratio_of_large_cuts, ratios},
     };
     return methods;
 }
