@@ -17,7 +17,7 @@ struct LightcutOptions {
     /// Where no more lights than this are lit, in all trees, cuts start with each of them, exact: at 2 % a cut holds
     /// more than half of so few, and bounds cost more than the shadow rays that they save. 0: never, for oracles so
     /// dear that they do not.
-    std::size_t few_lights = 128;
+    std::size_t few_lights = 256;
     /// Radiance that the viewer's eye is adapted to. A tenth of it is added to the total before bounds are compared
     /// with it, so that darkness is not refined beyond what such an eye sees [Multidimensional Lightcuts 2006, Eq. 15].
     float adaptation = 0.0f;
