@@ -114,7 +114,18 @@ TEST(Shade, KeepsOneClusterATreeWhateverTheLimit) {
     }
 }
 
-// No bound is asked for: what shades so few is the sum itself, light by light.
+/// For cuts that need no bound.
+struct NoBounds {
+    static constexpr bool two_stages = false;
+
+    template <class M, Light L>
+    material_spectrum<M> quick(const M&, const LightCluster<L>&, const glm::vec3&) const {
+        ADD_FAILURE() << "a bound was asked for";
+        return {};
+    }
+};
+
+// What shades so few is the sum itself, light by light.
 TEST(Shade, StartsWithAllLightsWhereTheyAreFew) {
     Room<V> room(12);
     auto omni = room.omni(60);
@@ -128,7 +139,7 @@ TEST(Shade, StartsWithAllLightsWhereTheyAreFew) {
     EstimateScratch<V> scratch;
     for (const auto& receiver : room.diffuse_receivers(10)) {
         const auto exact = exhaustive(forest, receiver, oracle, scratch);
-        const auto cut = shade(forest, receiver, oracle);
+        const auto cut = shade(forest, receiver, oracle, LightcutOptions{}, NoBounds{});
         for (int c = 0; c < 3; ++c) EXPECT_NEAR(cut.radiance[c], exact.radiance[c], 1e-6f * exact.radiance[c]);
         EXPECT_EQ(cut.error_bound, V(0.0f));
         EXPECT_EQ(cut.cut_size, 127u) << "one is dark";
@@ -138,6 +149,50 @@ TEST(Shade, StartsWithAllLightsWhereTheyAreFew) {
         EXPECT_LT(shade(forest, receiver, oracle, {.few_lights = 126}).cut_size, 127u);
         EXPECT_LE(shade(forest, receiver, oracle, {.max_cut = 126}).cut_size, 126u);
         EXPECT_EQ(shade(forest, receiver, oracle, {.max_cut = 127}).cut_size, 127u);
+    }
+}
+
+// In tiles, one by one and clamped, and with several representatives, each of which is the light itself.
+TEST(Shade, OfFewLightsIsTheSumHoweverItIsAskedFor) {
+    Room<V> room(13);
+    const auto omni = room.omni(40);
+    std::vector<VirtualLight<V>> reflected;
+    for (const auto& light : room.oriented(200)) reflected.push_back({light});
+    const LightTree a(omni, {.representatives = 8});
+    const LightTree b(reflected, {.representatives = 8});
+    const LightForest forest(a, b);
+    const auto receivers = room.diffuse_receivers(40);
+    const Occluders occluders = room.occluders();
+    EstimateScratch<V> sums;
+    scratch_of<decltype(forest)> scratch;
+    for (const ClampOptions& clamp : {ClampOptions{}, automatic_clamping, ClampOptions{.radiance = 1e-3f}}) {
+        const LightcutOptions options{.clamp = clamp};
+        std::vector<CutResult<V>> batched, scalar;
+        shade(forest, receivers, BatchedOccluders{occluders}, batched, scratch, options);
+        shade(forest, receivers, ScalarOccluders{occluders}, scalar, scratch, options);
+        for (std::size_t i = 0; i < receivers.size(); ++i) {
+            const V exact = exhaustive(forest, receivers[i], BatchedOccluders{occluders}, sums, clamp).radiance;
+            for (int c = 0; c < 3; ++c) EXPECT_NEAR(batched[i].radiance[c], exact[c], 1e-5f * exact[c]);
+            EXPECT_EQ(batched[i].radiance, scalar[i].radiance);
+            EXPECT_EQ(batched[i].error_bound, V(0.0f));
+            EXPECT_EQ(batched[i].cut_size, 240u);
+        }
+    }
+}
+
+/// Hides all, and knows it of whole clusters.
+struct Wall {
+    bool operator()(const auto&, const auto&) const { return false; }
+    float upper_bound(const auto&, const Box&) const { return 0.0f; }
+};
+
+// An oracle that bounds clusters is asked about them, however few their lights are.
+TEST(Shade, AsksABoundedOracleAboutFewLights) {
+    Room<V> room(14);
+    const auto omni = room.omni(100);
+    const LightTree tree(omni);
+    for (const auto& receiver : room.diffuse_receivers(5)) {
+        EXPECT_LE(shade(tree, receiver, Wall{}).queries, 1u) << "that of the root's representative";
     }
 }
 

@@ -255,17 +255,24 @@ TEST(Clamping, OfALimitedCutFindsTheLightNearby) {
               V(1.0f),
               {}}});
     }
+    const std::vector<Direct> glow{{{10.0f, 7.0f, 4.0f}, {0.0f, 0.0f, -1.0f}, V(1e-6f), {}}};
     const LightTree tree(lights);
+    const LightTree dim(glow);
+    const LightForest forest(dim, tree);
     for (int i = 0; i < 10; ++i) {
         const V point(2.0f + 1.7f * static_cast<float>(i), 7.3f, 0.0f);
         const Receiver<Lambert<V>> receiver(point, Lambert<V>{{0.0f, 0.0f, 1.0f}, V(0.5f)});
-        const auto nearby = [&](const auto&, const Virtual& light) {
-            return glm::distance(light.position, point + V(0.0f, 0.0f, 2.0f)) < 0.8f;  // some 200 of 40,000
+        const auto nearby = [&](const auto&, const auto& light) {
+            return glm::distance(light.position, point + V(0.0f, 0.0f, 2.0f)) < 0.8f ||  // some 200 of 40,000
+                   light.position == glow[0].position;
         };
-        const V exact = exhaustive(tree, receiver, nearby, automatic_clamping).radiance;
-        const auto result = shade(tree, receiver, nearby, {.max_cut = 400, .clamp = automatic_clamping});
-        EXPECT_EQ(result.stop, StopReason::limit);
-        EXPECT_NEAR(result.radiance.x, exact.x, 0.5f * exact.x);
+        const V exact = exhaustive(forest, receiver, nearby, automatic_clamping).radiance;
+        for (const float adaptation : {0.0f, 0.01f}) {
+            const LightcutOptions options{.max_cut = 400, .adaptation = adaptation, .clamp = automatic_clamping};
+            const auto result = shade(forest, receiver, nearby, options);
+            EXPECT_EQ(result.stop, StopReason::limit);
+            EXPECT_NEAR(result.radiance.x, exact.x, 0.5f * exact.x);
+        }
     }
 }
 

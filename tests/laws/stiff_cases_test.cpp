@@ -43,8 +43,8 @@ V expect_sound(const std::vector<L>& lights, const Receiver<M>& receiver, double
         EXPECT_NEAR(refined[c], exact[c], tolerance * static_cast<double>(exact[c]));
     }
     for (const LightcutOptions& options :
-         {LightcutOptions{}, LightcutOptions{.few_lights = 0}, LightcutOptions{.max_cut = 1}, LightcutOptions{.max_cut = 2},
-          LightcutOptions{.max_cut = lights.size(), .few_lights = 0},
+         {LightcutOptions{}, LightcutOptions{.few_lights = 0}, LightcutOptions{.max_cut = 1},
+          LightcutOptions{.max_cut = 2}, LightcutOptions{.max_cut = lights.size(), .few_lights = 0},
           LightcutOptions{.error_ratio = 0.5f, .few_lights = 0},
           LightcutOptions{.few_lights = 0, .adaptation = 1.0f}}) {
         const CutResult<V> cut = shade(tree, receiver, AlwaysVisible{}, options);
@@ -183,7 +183,7 @@ TEST(StiffCase, BoxBelowTheHorizon) {
     EXPECT_EQ(expect_sound(lights, floor_at(V(0.0f))), V(0.0f));
     const LightTree tree(lights);
     const Occluders none;
-    const auto cut = shade(tree, floor_at(V(0.0f)), ScalarOccluders{none});
+    const auto cut = shade(tree, floor_at(V(0.0f)), ScalarOccluders{none}, {.few_lights = 0});
     EXPECT_EQ(cut.cut_size, 1u);
     EXPECT_EQ(cut.queries, 0u) << "never evaluated";
 }

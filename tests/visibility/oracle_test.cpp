@@ -34,7 +34,7 @@ static_assert(!VisibilityOracle<Fickle, R, L> && !VisibilityOracle<Wordy, R, L>)
 
 TEST(AlwaysVisible, IsNeverAsked) {
     Room<glm::vec3> room(1);
-    const auto lights = room.omni(100);
+    const auto lights = room.omni(1000);
     const LightTree tree(lights);
     const auto receivers = room.diffuse_receivers(1);
     const auto result = shade(tree, receivers[0]);
@@ -56,7 +56,7 @@ TEST(Oracle, OfBothFormsIsAskedForMany) {
         }
     };
     Room<glm::vec3> room(2);
-    const auto lights = room.omni(100);
+    const auto lights = room.omni(1000);
     const LightTree tree(lights);
     for (const auto& receiver : room.diffuse_receivers(3)) {
         EXPECT_EQ(shade(tree, receiver, Both{}).radiance, shade(tree, receiver).radiance);
@@ -82,9 +82,9 @@ TEST(VisibilityQuery, SaysWhoAsksAboutWhat) {
         }
     };
     Room<glm::vec3> room(3);
-    auto omni = room.omni(60);
+    auto omni = room.omni(600);
     omni[5].intensity = glm::vec3(0.0f);  // left out of the tree, yet indices stay those of the user
-    const auto distant = room.distant(60);
+    const auto distant = room.distant(600);
     const LightTree a(omni);
     const LightTree b(distant);
     const LightForest forest(a, b);

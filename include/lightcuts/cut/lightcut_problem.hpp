@@ -78,9 +78,10 @@ public:
     static_assert(
         detail::reflects<material, S>,
         "a material's evaluate(to_light) needs to return the spectrum in which the lights state their intensity");
-    static_assert(detail::answers<Oracle, R, Forest>,
-                  "an oracle needs operator()(receiver, light) const, which returns a bool or a fraction, or "
-                  "many(queries, answers) const");
+    static_assert(
+        detail::answers<Oracle, R, Forest>,
+        "an oracle needs operator()(receiver, light) const, which returns a bool, a fraction or a spectrum of "
+        "fractions, or many(queries, answers) const");
 
     LightcutProblem(const Forest& forest, const R& receiver, const Oracle& oracle, const Policy& policy,
                     const LightcutOptions& options, totals& sums, std::vector<VisibilityQuery>& queries)
@@ -233,16 +234,20 @@ public:
         return largest == largest ? largest : std::numeric_limits<double>::infinity();
     }
 
+    /// What a cluster may be off by, as a share of the total. Clamping decides whether it is refined. In which order is
+    /// decided without: by shares, clusters of most lights would come first, and a limited cut might miss the nearest.
     double priority(const node& n) const {
-        double largest = 0.0;
+        double largest = 0.0, clamped = 0.0;
         for (int c = 0; c < channels_of<S>; ++c) {
-            double p = static_cast<double>(channel(n.bound, c)) * totals_.weight[static_cast<std::size_t>(c)];
+            const double p = static_cast<double>(channel(n.bound, c)) * totals_.weight[static_cast<std::size_t>(c)];
+            largest = p > largest ? p : largest;
             if constexpr (clamps) {
                 const double most = static_cast<double>(n.lights) * totals_.clamp.share[static_cast<std::size_t>(c)];
-                p = p > most ? most : p;
+                const double q = p > most ? most : p;
+                clamped = q > clamped ? q : clamped;
             }
-            largest = p > largest ? p : largest;
         }
+        if constexpr (clamps) return clamped > threshold_ ? largest : clamped;
         return largest;
     }
 
@@ -260,11 +265,17 @@ public:
 private:
     static constexpr double darkest = 1e150;  ///< weight of bounds where no light has arrived
 
-    /// True if the cut starts with all lights.
+    /// True if the cut starts with all lights. Not if the oracle bounds clusters: it may know of many at once that they
+    /// are hidden.
     bool has_few_lights() const {
         std::size_t lights = 0;
-        forest_.for_each([&](std::uint32_t, const auto& tree) { lights += tree.topology().item_count(); });
-        return lights <= options_.few_lights && (options_.max_cut == 0 || lights <= options_.max_cut);
+        bool bounds = false;
+        forest_.for_each([&](std::uint32_t, const auto& tree) {
+            using L = typename std::remove_cvref_t<decltype(tree)>::light_type;
+            lights += tree.topology().item_count();
+            bounds = bounds || BoundedOracle<Oracle, R, L>;
+        });
+        return !bounds && lights <= options_.few_lights && (options_.max_cut == 0 || lights <= options_.max_cut);
     }
 
     /// What is known of a cluster's terms without looking at it.
@@ -456,14 +467,12 @@ private:
         if constexpr (clamps) set_shares();
     }
 
-    /// None in the dark: there shares would send refinement to the clusters of most lights, and at the limit of
-    /// clusters it would have found nothing where bounds lead it to the lights that are seen.
+    /// A light's share in the total is known also where the total is not, since it has been dark so far.
     void set_shares() requires clamps {
         const double limit = static_cast<double>(options_.clamp.radiance);
+        const double ratio = options_.clamp.is_automatic() ? static_cast<double>(options_.clamp.ratio)
+                                                           : std::numeric_limits<double>::infinity();
         for (std::size_t c = 0; c < totals_.weight.size(); ++c) {
-            const bool any_share = !options_.clamp.is_automatic() || totals_.weight[c] == darkest;
-            const double ratio = any_share ? std::numeric_limits<double>::infinity()
-                                           : static_cast<double>(options_.clamp.ratio);
             const double share = limit * totals_.weight[c];
             totals_.clamp.share[c] = share < ratio ? share : ratio;
         }

@@ -14,9 +14,9 @@ struct LightcutOptions {
     /// Most clusters in a cut; 0: unlimited. Reached in dark places, where the total is small. Never below the
     /// number of trees.
     std::size_t max_cut = 1000;
-    /// Where no more lights than this are lit, in all trees, cuts start with each of them, exact: at 2 % a cut holds
-    /// more than half of so few, and bounds cost more than the shadow rays that they save. 0: never, for oracles so
-    /// dear that they do not.
+    /// If no more lights than this are lit, in all trees together, the cut starts with each of them and is exact: to
+    /// bound clusters of so few takes longer than to trace the shadow rays that it saves. 0 turns it off, as does a
+    /// BoundedOracle: lower it where a shadow ray costs microseconds.
     std::size_t few_lights = 256;
     /// Radiance that the viewer's eye is adapted to. A tenth of it is added to the total before bounds are compared
     /// with it, so that darkness is not refined beyond what such an eye sees [Multidimensional Lightcuts 2006, Eq. 15].
