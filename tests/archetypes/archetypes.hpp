@@ -143,18 +143,35 @@ struct LeastBatchedOracle : private Pinned {
     }
 };
 
-/// Answers for each channel, about one light or about many.
+/// Answers for each channel, about one light or about many: half of all gets through.
 struct LeastTint : private Pinned {
     LeastTint() : Pinned(0) {}
     template <class R, class L>
     Bands operator()(const R&, const L&) const {
-        return Bands(std::array<float, 5>{1.0f, 1.0f, 1.0f, 1.0f, 1.0f});
+        return Bands(std::array<float, 5>{0.5f, 0.5f, 0.5f, 0.5f, 0.5f});
     }
 };
 struct LeastTintingOracle : private Pinned {
     LeastTintingOracle() : Pinned(0) {}
     void many(std::span<const VisibilityQuery> queries, std::span<Bands> answers) const {
         for (std::size_t i = 0; i < queries.size(); ++i) answers[i] = LeastTint()(0, 0);
+    }
+};
+
+/// Answer that a light is visible if rays to it start on its side of the plane z = 0.
+struct LeastBlade : private Pinned {
+    LeastBlade() : Pinned(0) {}
+    template <class R, class L>
+    bool operator()(const R& receiver, const L& light) const {
+        return (receiver.shadow_origin.z > 0.0f) == (place_of(light).z > 0.0f);
+    }
+};
+struct LeastBatchedBlade : private Pinned {
+    LeastBatchedBlade() : Pinned(0) {}
+    void many(std::span<const VisibilityQuery> queries, std::span<float> answers) const {
+        for (std::size_t i = 0; i < queries.size(); ++i) {
+            answers[i] = (queries[i].from.z > 0.0f) == (queries[i].to.z > 0.0f) ? 1.0f : 0.0f;
+        }
     }
 };
 

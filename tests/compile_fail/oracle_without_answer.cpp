@@ -1,4 +1,4 @@
-// expect: an oracle needs operator()(receiver, light) const, which returns a bool or a fraction, or
+// expect: an oracle needs operator()(receiver, light) const, which returns a bool, a fraction or a spectrum
 #include <vector>
 
 #include <lightcuts/lightcuts.hpp>

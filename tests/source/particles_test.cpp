@@ -283,6 +283,25 @@ TEST(VirtualLights, LieOnBothSidesOfALeafByWhatLeavesThere) {
     }
 }
 
+TEST(VirtualLights, AreOneWhereAParticleIsBrighterThanItsLights) {
+    const Sheet leaf{{V(0.4f)}, V(0.2f)};
+    const Sheet::Meeting hit{{V(0.0f), V(0.0f, 1.0f, 0.0f)}, V(0.0f, -1e-4f, 0.0f)};
+    const V power(1.0f, 2.0f, 3.0f);  // 2.4 of 6 go up and 1.2 down
+    std::vector<OrientedPointLight<V>> lights;
+    const int count = 3000;
+    for (int i = 0; i < count; ++i) detail::leave_light(leaf, hit, power, (i + 0.5) / count, lights);
+    ASSERT_EQ(lights.size(), std::size_t(count));
+    glm::dvec3 up(0.0), down(0.0);
+    for (const auto& l : lights) {
+        EXPECT_NEAR(pi * channel_sum(l.intensity), 3.6, 1e-5);
+        (l.axis.y > 0.0f ? up : down) += pi / count * glm::dvec3(l.intensity);
+    }
+    for (int c = 0; c < 3; ++c) {
+        EXPECT_NEAR(up[c], 0.4 * double(power[c]), 1e-5);
+        EXPECT_NEAR(down[c], 0.2 * double(power[c]), 1e-5);
+    }
+}
+
 TEST(VirtualLights, DependOnTheSeedButNotOnThreads) {
     const Chamber room{V(0.7f)};
     const std::vector<OmniLight<>> omni{{V(1.0f, 0.5f, 1.0f), V(1.0f), {}}};
@@ -318,7 +337,9 @@ TEST(VirtualLights, RefuseWhatLightsNothing) {
     EXPECT_THAT(refusal(Floor{}, Omni{}), HasSubstr("no light emits"));
     EXPECT_THAT(refusal(Floor{}, at(1.0f, V(0.0f))), HasSubstr("no light emits"));
     EXPECT_THAT(refusal(Floor{}, at(-1.0f, V(1.0f))), HasSubstr("particles from the lights met a surface"));
-    EXPECT_THAT(refusal(Floor{V(0.0f)}, at(1.0f, V(1.0f))), HasSubstr("none was reflected diffusely"));
+    EXPECT_THAT(refusal(Floor{V(0.0f)}, at(1.0f, V(1.0f))), HasSubstr("none was reflected or let through"));
+    EXPECT_THAT(refusal(Sheet{{V(0.0f)}}, at(1.0f, V(1.0f))), HasSubstr("none was reflected or let through"));
+    EXPECT_EQ(refusal(Sheet{{V(0.0f)}, V(0.5f)}, at(1.0f, V(1.0f))), "");
     EXPECT_THAT(refusal(Floor{}, at(1.0f, V(1.0f, -1.0f, 1.0f))), HasSubstr("light 0 of kind 0"));
     const float nan = std::numeric_limits<float>::quiet_NaN();
     EXPECT_THAT(refusal(Floor{}, at(1.0f, V(nan))), HasSubstr("light 0 of kind 0"));

@@ -1,6 +1,7 @@
 // Oracles that answer a fraction for each channel: coloured shadows.
 
 #include <cmath>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -56,6 +57,10 @@ static_assert(!ScalarOracle<ScalarGlass, Receiver<Lambert<float>>, OmniLight<flo
 static_assert(TintingOracle<BatchedGlass, V> && !BatchedOracle<BatchedGlass> && !TintingOracle<BatchedGlass, float>);
 static_assert(VisibilityOracle<BatchedGlass, R, OmniLight<V>>);
 static_assert(!TintingOracle<BatchedOccluders, V> && !TintingOracle<BatchedOccluders, float>);
+
+static_assert(detail::is_fraction(0.0f) && detail::is_fraction(1.0f) && detail::is_fraction(glass));
+static_assert(!detail::is_fraction(1.25f) && !detail::is_fraction(-1.0f) && !detail::is_fraction(V(0.0f, 0.0f, 2.0f)));
+static_assert(!detail::is_fraction(std::numeric_limits<float>::quiet_NaN()));
 
 struct GlassRoom {
     explicit GlassRoom(std::uint64_t seed)
@@ -150,6 +155,26 @@ TEST(TintingOracle, LeavesSamplingUnbiased) {
                 << "method " << k / 3 << ", channel " << k % 3;
         }
     }
+}
+
+/// Glass that gives light.
+struct Glowing {
+    template <class Receiver, class L>
+    V operator()(const Receiver&, const L&) const {
+        return V(0.5f, 2.0f, 1.0f);
+    }
+};
+struct ManyGlowing {
+    void many(std::span<const VisibilityQuery> queries, std::span<V> answers) const {
+        for (std::size_t i = 0; i < queries.size(); ++i) answers[i] = Glowing()(0, 0);
+    }
+};
+
+TEST(TintingOracle, ThatGivesLightIsStoppedInDebugBuilds) {
+    GTEST_FLAG_SET(death_test_style, "threadsafe");
+    GlassRoom scene(34);
+    EXPECT_DEBUG_DEATH(exhaustive(scene.lights, scene.receivers[0], Glowing{}), "is_fraction");
+    EXPECT_DEBUG_DEATH(exhaustive(scene.lights, scene.receivers[0], ManyGlowing{}), "is_fraction");
 }
 
 }  // namespace

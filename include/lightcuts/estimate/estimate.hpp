@@ -123,8 +123,8 @@ template <class Forest, class M, class Oracle, Spectrum S, class Contribution, c
 std::uint32_t ask(const Forest& forest, const Receiver<M>& receiver, const Oracle& oracle, EstimateScratch<S>& scratch,
                   std::span<const Contribution> contributions, Take&& take) {
     static_assert(answers<Oracle, Receiver<M>, Forest>,
-                  "an oracle needs operator()(receiver, light) const, which returns a bool or a fraction, or "
-                  "many(queries, answers) const");
+                  "an oracle needs operator()(receiver, light) const, which returns a bool, a fraction or "
+                  "a spectrum of fractions, or many(queries, answers) const");
     if constexpr (std::same_as<Oracle, AlwaysVisible>) {
         for (const Contribution& c : contributions) take(c, 1.0f);
         return 0;

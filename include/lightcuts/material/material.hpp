@@ -87,7 +87,8 @@ concept CompositeMaterial = Material<M> && requires(const M& m, detail::AnyCompo
 
 /// A material of a thin surface that is lit from both sides: light from behind goes through to the viewer.
 /// `is_behind(to_light)` is true if light from there, a vector of any length, arrives behind the surface itself. Shadow
-/// rays to such lights then start behind it too.
+/// rays to such lights then start behind it too. Oracles that are asked about a receiver are shown a copy that says so:
+/// a material that cannot be copied is referred to, by `Receiver<const M&>`.
 template <class M>
 concept TwoSidedMaterial = Material<M> && requires(const M& m, const glm::vec3& to_light) {
     { m.is_behind(to_light) } -> std::same_as<bool>;

@@ -4,10 +4,14 @@
 
 namespace lightcuts {
 
-/// The sum of materials; of equal spectra and at one receiver. `Sum{Lambert{...}, Ggx{...}}`.
+/// The sum of materials; of equal spectra and at one receiver. `Sum{Lambert{...}, Ggx{...}}`. They share its shadow
+/// rays, which start on one side; so none is a TwoSidedMaterial, but each side of a ThinSheet may be a sum.
 template <Material M, Material... Ms>
     requires(std::same_as<material_spectrum<M>, material_spectrum<Ms>>&&...)
 class Sum {
+    static_assert(!TwoSidedMaterial<M>,
+                  "what is lit from both sides is no part of a Sum: make each side of a ThinSheet a sum");
+
 public:
     constexpr explicit Sum(const M& first, const Ms&... rest) : first_(first), rest_(rest...) {}
 
@@ -24,13 +28,6 @@ public:
         cheapest_upper_bounds(first_, offsets, bounds);
         rest_.quick_upper_bounds(offsets, others);
         for (std::size_t i = 0; i < bounds.size(); ++i) bounds[i] = bounds[i] + others[i];
-    }
-    /// As one of its parts has it.
-    bool is_behind(const glm::vec3& to_light) const requires(TwoSidedMaterial<M> || (TwoSidedMaterial<Ms> || ...)) {
-        bool behind = false;
-        if constexpr (TwoSidedMaterial<M>) behind = first_.is_behind(to_light);
-        if constexpr (TwoSidedMaterial<Sum<Ms...>>) behind = behind || rest_.is_behind(to_light);
-        return behind;
     }
     /// Calls f(material) for each material that is not itself a composite, in order.
     template <class F>
@@ -50,6 +47,9 @@ private:
 
 template <Material M>
 class Sum<M> {
+    static_assert(!TwoSidedMaterial<M>,
+                  "what is lit from both sides is no part of a Sum: make each side of a ThinSheet a sum");
+
 public:
     constexpr explicit Sum(const M& only) : only_(only) {}
 
@@ -61,7 +61,6 @@ public:
                             LaneSpectra<material_spectrum<M>>& bounds) const requires BoundedMaterial<M> {
         cheapest_upper_bounds(only_, offsets, bounds);
     }
-    bool is_behind(const glm::vec3& to_light) const requires TwoSidedMaterial<M> { return only_.is_behind(to_light); }
     template <class F>
     void for_each_component(F&& f) const {
         if constexpr (CompositeMaterial<M>) {

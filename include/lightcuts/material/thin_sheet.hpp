@@ -1,5 +1,7 @@
 #pragma once
 
+#include <concepts>
+
 #include <glm/vec3.hpp>
 
 #include "above_horizon.hpp"
@@ -11,6 +13,8 @@ namespace lightcuts {
 /// of the viewer and `transmission` for those behind the surface, each as `AboveHorizon` has it, so that neither leaks
 /// into the other. A Lambert about the opposite normal transmits diffusely:
 /// `ThinSheet{Lambert{n, reflectance}, Lambert{-n, transmittance}, n}`. Models TwoSidedMaterial.
+/// `upper_bound` of a box across the surface is that of the brighter side; a cut, which bounds each component by
+/// itself, bounds clusters across it by the sum of both sides.
 template <Material Front, Material Back>
     requires std::same_as<material_spectrum<Front>, material_spectrum<Back>>
 struct ThinSheet {

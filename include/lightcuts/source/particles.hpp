@@ -56,6 +56,17 @@ concept TransmissiveParticleScene = ParticleScene<Sc, S> && requires(const Sc& s
     { scene.diffuse_transmittance(*scene.intersect(v, v)) } -> std::convertible_to<S>;
 };
 
+namespace detail {
+template <class Sc>
+concept HitsHavePositionBehind = requires(const Sc& scene, glm::vec3 v) {
+    (*scene.intersect(v, v)).position_behind;
+};
+template <class Sc>
+concept HasDiffuseTransmittance = requires(const Sc& scene, glm::vec3 v) {
+    scene.diffuse_transmittance(*scene.intersect(v, v));
+};
+}  // namespace detail
+
 struct ParticleOptions {
     std::size_t lights = 10000;         ///< wanted, over all bounces; about as many are made
     std::uint32_t longest_path = 1000;  ///< surfaces met; what lies beyond is lost
@@ -127,7 +138,8 @@ void follow(const Scene& scene, const Emission& emission, const Numbers& numbers
         }
         for (std::uint32_t bounce = 0; bounce < longest_path; ++bounce) {
             const std::array<double, 4> drawn = four_numbers(4 + 4 * bounce);
-            // One number decides on both the light and the way on: each alone is right, and fewer ways end in vain.
+            // One number decides on both the light, on either side, and the way on: each alone is right, and fewer ways
+            // end in vain.
             const double roulette = drawn[3];
             leave_light(scene, *hit, power, roulette, tally.lights);
             const auto below_one = [&](std::size_t d) {
@@ -184,13 +196,18 @@ ParticleTally<typename Emission::S> follow_all(const Scene& scene, const Emissio
 /// Light profiles are resolved in 512 steps of the angle. A first, smaller set of particles finds how many lights a
 /// particle leaves; `options.lights` then is met within a few per cent.
 /// throws: invalid_input if no light emits, if one is negative or not finite, if all particles miss the scene, or none
-/// is reflected diffusely. cost: about one intersection a light, and as many for particles that end.
+/// is reflected or let through diffusely. cost: about one intersection a light, and as many for particles that end.
 /// threads: the result does not depend on them.
 template <class Scene, Light... Ls, NumberSource Numbers = LowDiscrepancy, Executor E = Sequential>
     requires ParticleScene<Scene, typename ParticleSources<Ls...>::spectrum>
 auto virtual_lights(const Scene& scene, const ParticleSources<Ls...>& sources, const ParticleOptions& options = {},
                     const Numbers& numbers = {}, const E& execute = {}) {
     using S = typename ParticleSources<Ls...>::spectrum;
+    static_assert(
+        TransmissiveParticleScene<Scene, S> ||
+            !(detail::HitsHavePositionBehind<Scene> || detail::HasDiffuseTransmittance<Scene>),
+        "a scene with leaves needs both: diffuse_transmittance(hit) const, which returns the lights' Spectrum, "
+        "and hits with a position_behind");
     VirtualLights<S> result;
     Box bounds;
     if constexpr (ParticleSources<Ls...>::has_directional) {
@@ -221,7 +238,7 @@ auto virtual_lights(const Scene& scene, const ParticleSources<Ls...>& sources, c
     }
     if (left == 0) {
         throw invalid_input("virtual lights: of " + std::to_string(followed) + " particles " + std::to_string(landed) +
-                            " met a surface, but none was reflected diffusely");
+                            " met a surface, but none was reflected or let through diffusely");
     }
     const double wanted = static_cast<double>(options.lights) * static_cast<double>(followed) /
                           static_cast<double>(left);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <concepts>
+
 #include "../light/incidence.hpp"
 #include "../material/receiver.hpp"
 
@@ -7,15 +9,20 @@ namespace lightcuts::detail {
 
 /// Towards the light at `place`: not of unit length unless it is distant.
 template <Light L>
-constexpr glm::vec3 towards(const glm::vec3& receiver, const glm::vec3& place) {
-    return DirectionalLight<L> ? place : place - receiver;
+constexpr glm::vec3 towards(const glm::vec3& position, const glm::vec3& place) {
+    return DirectionalLight<L> ? place : place - position;
 }
 
 /// The receiver as seen from behind: its shadow rays start there.
 template <class M>
-constexpr Receiver<M> from_behind(Receiver<M> receiver) {
-    receiver.shadow_origin = receiver.shadow_origin_behind();
-    return receiver;
+constexpr Receiver<M> from_behind(const Receiver<M>& receiver) {
+    static_assert(
+        std::copy_constructible<M>,
+        "an oracle that is asked about receivers sees a copy of a two-sided one: let its material be copyable, "
+        "or Receiver<const M&> refer to it");
+    Receiver<M> behind = receiver;
+    behind.shadow_origin = receiver.shadow_origin_behind();
+    return behind;
 }
 
 /// Calls `ask(receiver)` with the receiver whose shadow rays start on the side where `light` is: the receiver itself,

@@ -1,11 +1,14 @@
 #pragma once
 
+#include <algorithm>
 #include <concepts>
 #include <span>
 #include <type_traits>
 #include <vector>
 
+#include "../core/assertion.hpp"
 #include "../core/box.hpp"
+#include "../core/spectrum.hpp"
 #include "../light/light.hpp"
 #include "query.hpp"
 
@@ -33,6 +36,8 @@ concept BatchedOracle = requires(const O& visible, std::span<const VisibilityQue
 };
 
 /// A batched oracle with an answer for each channel: `answers[i]` is a spectrum of fractions in [0, 1].
+/// A cut refines until every channel has converged, which one without any light never does: where tints have a channel
+/// of zero, cuts grow to their limit. A BoundedOracle does not help, as its bound is one float for all channels.
 template <class O, class S>
 concept TintingOracle = !std::same_as<S, float> &&
                         requires(const O& visible, std::span<const VisibilityQuery> queries, std::span<S> answers) {
@@ -53,12 +58,23 @@ concept AnswersMany = BatchedOracle<O> || TintingOracle<O, S>;
 template <class O, class S>
 using many_answer = std::conditional_t<TintingOracle<O, S>, S, float>;
 
-/// A single answer as what light is multiplied by: a float or a spectrum.
+/// Whether every channel is in [0, 1].
+template <Spectrum A>
+constexpr bool is_fraction(const A& answer) {
+    for (int c = 0; c < channels_of<A>; ++c) {
+        if (!(channel(answer, c) >= 0.0f && channel(answer, c) <= 1.0f)) return false;
+    }
+    return true;
+}
+
+/// A single answer as what light is multiplied by: a float or a spectrum. pre: is_fraction
 template <class S, class A>
 constexpr auto as_factor(const A& answer) {
     if constexpr (std::same_as<A, S>) {
+        LIGHTCUTS_ASSERT(is_fraction(answer));
         return answer;
     } else {
+        LIGHTCUTS_ASSERT(is_fraction(static_cast<float>(answer)));
         return static_cast<float>(answer);
     }
 }
@@ -73,11 +89,12 @@ std::vector<many_answer<O, S>>& answers_for(Scratch& scratch) {
     }
 }
 
-/// The answers to `queries`, in their order; `answers` is storage.
+/// The answers to `queries`, in their order, each a fraction; `answers` is storage.
 template <class O, class A>
 std::span<const A> ask_many(const O& oracle, std::span<const VisibilityQuery> queries, std::vector<A>& answers) {
     answers.resize(queries.size());
     if (!queries.empty()) oracle.many(queries, std::span(answers));
+    LIGHTCUTS_ASSERT(std::all_of(answers.begin(), answers.end(), is_fraction<A>));
     return answers;
 }
 
