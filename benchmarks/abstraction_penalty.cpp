@@ -6,8 +6,9 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
-#include <fstream>
 #include <limits>
+#include <stdexcept>
+#include <string>
 
 #include <CLI/CLI.hpp>
 #include <glm/common.hpp>
@@ -16,6 +17,7 @@
 #include <lightcuts/material/lambert.hpp>
 #include <nlohmann/json.hpp>
 
+#include "figures.hpp"
 #include "workload.hpp"
 
 namespace {
@@ -373,49 +375,50 @@ int main(int argc, char** argv) {
     CLI::App app{"Time of the generic code over that of a loop written by hand"};
     app.add_option("--lights", light_count, "omni lights")->check(CLI::PositiveNumber);
     app.add_option("--points", point_count, "receivers")->check(CLI::PositiveNumber);
-    app.add_option("--runs", runs, "medians are over this many")->check(CLI::PositiveNumber);
+    app.add_option("--runs", runs, "medians are over this odd number")->check(benchmark::odd_number());
     CLI11_PARSE(app, argc, argv);
 
-    const std::vector<Light> lights = room_lights(light_count);
-    const std::vector<Point> points = floor_points(point_count);
-    const Tree tree(lights);
-    lightcuts::LightcutOptions options;
-    options.max_cut = 0;
-    lightcuts::LightcutScratch<glm::vec3> scratch;
-    std::vector<Result> generic(points.size()), by_hand(points.size());
-    HandWritten hand(tree, options);
-    const auto run_generic = [&] { lightcuts::shade(tree, points, BallOracle{}, generic, scratch, options); };
-    const auto run_by_hand = [&] {
-        for (std::size_t i = 0; i < points.size(); ++i) by_hand[i] = hand.shade(points[i]);
-    };
+    return benchmark::write_figures("bench-abstraction_penalty", "abstraction_penalty.json", [&] {
+        const std::vector<Light> lights = room_lights(light_count);
+        const std::vector<Point> points = floor_points(point_count);
+        const Tree tree(lights);
+        lightcuts::LightcutOptions options;
+        options.max_cut = 0;
+        options.few_lights = 0;
+        lightcuts::LightcutScratch<glm::vec3> scratch;
+        std::vector<Result> generic(points.size()), by_hand(points.size());
+        HandWritten hand(tree, options);
+        const auto run_generic = [&] { lightcuts::shade(tree, points, BallOracle{}, generic, scratch, options); };
+        const auto run_by_hand = [&] {
+            for (std::size_t i = 0; i < points.size(); ++i) by_hand[i] = hand.shade(points[i]);
+        };
 
-    run_generic();
-    run_by_hand();
-    double nodes = 0, rays = 0;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        if (!same_bits(generic[i], by_hand[i])) {
-            std::fprintf(stderr, "bench-abstraction_penalty: the results for point %zu differ\n", i);
-            return 1;
+        run_generic();
+        run_by_hand();
+        double nodes = 0, rays = 0;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            if (!same_bits(generic[i], by_hand[i])) {
+                throw std::runtime_error("the results for point " + std::to_string(i) + " differ");
+            }
+            nodes += generic[i].cut_size;
+            rays += generic[i].queries;
         }
-        nodes += generic[i].cut_size;
-        rays += generic[i].queries;
-    }
-    std::vector<double> generic_times, hand_times;
-    for (int run = 0; run < runs; ++run) {
-        generic_times.push_back(benchmark::seconds(run_generic));
-        hand_times.push_back(benchmark::seconds(run_by_hand));
-    }
-    const double generic_time = benchmark::median(generic_times), hand_time = benchmark::median(hand_times);
-    const auto count = static_cast<double>(points.size());
-    std::printf("%zu lights, %zu points, mean cut %.1f, %.1f rays\n", lights.size(), points.size(), nodes / count,
-                rays / count);
-    std::printf("%-12s %12s\n", "", "us per point");
-    std::printf("%-12s %12.2f\n", "generic", 1e6 * generic_time / count);
-    std::printf("%-12s %12.2f\n", "by hand", 1e6 * hand_time / count);
-    std::printf("%-12s %12.3f\n", "ratio", generic_time / hand_time);
-    const nlohmann::json json = {{"lights", lights.size()},          {"points", points.size()},
-                                 {"cut_size", nodes / count},        {"shadow_rays", rays / count},
-                                 {"generic_seconds", generic_time},  {"by_hand_seconds", hand_time},
-                                 {"ratio", generic_time / hand_time}};
-    std::ofstream("abstraction_penalty.json") << json.dump(2) << "\n";
+        std::vector<double> generic_times, hand_times;
+        for (int run = 0; run < runs; ++run) {
+            generic_times.push_back(benchmark::seconds(run_generic));
+            hand_times.push_back(benchmark::seconds(run_by_hand));
+        }
+        const double generic_time = benchmark::median(generic_times), hand_time = benchmark::median(hand_times);
+        const auto count = static_cast<double>(points.size());
+        std::printf("%zu lights, %zu points, mean cut %.1f, %.1f rays\n", lights.size(), points.size(), nodes / count,
+                    rays / count);
+        std::printf("%-12s %12s\n", "", "us per point");
+        std::printf("%-12s %12.2f\n", "generic", 1e6 * generic_time / count);
+        std::printf("%-12s %12.2f\n", "by hand", 1e6 * hand_time / count);
+        std::printf("%-12s %12.3f\n", "ratio", generic_time / hand_time);
+        return nlohmann::json{{"lights", lights.size()},          {"points", points.size()},
+                              {"cut_size", nodes / count},        {"shadow_rays", rays / count},
+                              {"generic_seconds", generic_time},  {"by_hand_seconds", hand_time},
+                              {"ratio", generic_time / hand_time}};
+    });
 }

@@ -55,7 +55,7 @@ private:
 template <class Forest>
 BoundTightness measure(const Workload& work, const Forest& forest, std::size_t max_cut) {
     const render::OpaqueOracle oracle = work.oracle();
-    const lightcuts::LightcutOptions options{.max_cut = max_cut, .clamp = work.clamp()};
+    const lightcuts::LightcutOptions options{.max_cut = max_cut, .seed = work.options().seed, .clamp = work.clamp()};
     lightcuts::scratch_of<Forest> scratch;
     const auto cut_size = [&](const Receiver& receiver, const auto& policy) {
         lightcuts::CutResult<glm::vec3> result;

@@ -14,6 +14,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "figures.hpp"
 #include "workload.hpp"
 
 namespace {
@@ -90,7 +91,7 @@ double seconds_to_compile(const fs::path& file) {
     return seconds_of_children() - start;
 }
 
-int run(int runs, bool each) {
+nlohmann::json measure(int runs, bool each) {
     const std::string umbrella = "lightcuts/lightcuts.hpp";
     Includes includes;
     includes.follow(fs::path(LIGHTCUTS_INCLUDE_DIRECTORY) / umbrella);
@@ -127,8 +128,7 @@ int run(int runs, bool each) {
         json["seconds"].push_back({row.name, seconds});
     }
     json["umbrella_over_foreign"] = benchmark::median(rows[2].seconds) / foreign;
-    std::ofstream("compile_time.json") << json.dump(2) << "\n";
-    return 0;
+    return json;
 }
 
 }  // namespace
@@ -137,13 +137,8 @@ int main(int argc, char** argv) {
     int runs = 5;
     bool each = false;
     CLI::App app{"Time of compiling a file that includes the whole library"};
-    app.add_option("--runs", runs, "medians are over this many")->check(CLI::PositiveNumber);
+    app.add_option("--runs", runs, "medians are over this odd number")->check(benchmark::odd_number());
     app.add_flag("--each", each, "also each of the standard and GLM headers alone");
     CLI11_PARSE(app, argc, argv);
-    try {
-        return run(runs, each);
-    } catch (const std::exception& e) {
-        std::fprintf(stderr, "bench-compile_time: %s\n", e.what());
-        return 1;
-    }
+    return benchmark::write_figures("bench-compile_time", "compile_time.json", [&] { return measure(runs, each); });
 }

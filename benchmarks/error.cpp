@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdio>
-#include <fstream>
 #include <thread>
 
 #include <CLI/CLI.hpp>
@@ -12,6 +11,7 @@
 
 #include "crossing.hpp"
 #include "error.hpp"
+#include "figures.hpp"
 #include "picture.hpp"
 #include "workload.hpp"
 
@@ -168,12 +168,14 @@ int main(int argc, char** argv) {
     app.add_option("--only", only, "measure only this")->check(CLI::IsMember({"error", "growth", "crossing"}));
     app.add_option("--width", width, "of the picture, pixels; the crossing uses half of it");
     app.add_option("--height", height, "of the picture, pixels; the crossing uses half of it");
-    app.add_option("--runs", runs, "medians are over this many")->check(CLI::PositiveNumber);
+    app.add_option("--runs", runs, "medians are over this odd number")->check(odd_number());
     CLI11_PARSE(app, argc, argv);
 
-    nlohmann::json json;
-    if (only.empty() || only == "error") json["error"] = measure_error(width, height);
-    if (only.empty() || only == "growth") json["growth"] = measure_growth(width, height, runs);
-    if (only.empty() || only == "crossing") json["crossing"] = measure_crossing(width / 2, height / 2, runs);
-    std::ofstream("error.json") << json.dump(2) << "\n";
+    return write_figures("bench-error", "error.json", [&] {
+        nlohmann::json json;
+        if (only.empty() || only == "error") json["error"] = measure_error(width, height);
+        if (only.empty() || only == "growth") json["growth"] = measure_growth(width, height, runs);
+        if (only.empty() || only == "crossing") json["crossing"] = measure_crossing(width / 2, height / 2, runs);
+        return json;
+    });
 }

@@ -20,6 +20,7 @@
 #include <nlohmann/json.hpp>
 
 #include "equal_time.hpp"
+#include "figures.hpp"
 #include "options.hpp"
 #include "output_file.hpp"
 #include "report_files.hpp"
@@ -182,8 +183,7 @@ int main(int argc, char** argv) {
     app.add_option("--height", arguments.scenes.height, "of the pictures, pixels")->check(sides);
     app.add_option("--area-points", arguments.scenes.area_points,
                    "lights per emissive surface where a scene does not say (64)");
-    app.add_option("--runs", arguments.measurement.runs, "medians are over this odd number (3)")
-        ->check(CLI::PositiveNumber);
+    app.add_option("--runs", arguments.measurement.runs, "medians are over this odd number (3)")->check(odd_number());
     app.add_option("--threads", arguments.measurement.threads, "of rendering; seconds are summed over them (1)")
         ->check(CLI::Range(1, 4096));
     app.add_option("--output", arguments.output, "folder for the files (.)");

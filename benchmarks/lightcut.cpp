@@ -3,12 +3,11 @@
 
 #include <cstdio>
 #include <cstring>
-#include <exception>
-#include <fstream>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "figures.hpp"
 #include "workload.hpp"
 
 namespace {
@@ -205,10 +204,10 @@ int main(int argc, char** argv) {
     app.add_option("--only", only, "measure only scenes whose name contains this");
     app.add_option("--width", width, "of the picture, pixels");
     app.add_option("--height", height, "of the picture, pixels");
-    app.add_option("--runs", runs, "medians are over this many")->check(CLI::PositiveNumber);
+    app.add_option("--runs", runs, "medians are over this odd number")->check(odd_number());
     app.add_option("--exhaustive", exhaustive_receivers, "points for the exhaustive sum; 0: none");
     CLI11_PARSE(app, argc, argv);
-    try {
+    return write_figures("bench-lightcut", "lightcut.json", [&] {
         nlohmann::json rows = nlohmann::json::array();
         std::printf("%-44s %8s %7s %7s %7s %7s %7s %7s %8s %8s %9s\n", "scene", "lights", "cut", "rays", "quick",
                     "tight", "/rays", "stream", "ns/ray", "ns/node", "/exhaust.");
@@ -221,9 +220,6 @@ int main(int argc, char** argv) {
             std::fflush(stdout);
             rows.push_back(to_json(r));
         }
-        std::ofstream("lightcut.json") << rows.dump(2) << "\n";
-    } catch (const std::exception& e) {
-        std::fprintf(stderr, "bench-lightcut: %s\n", e.what());
-        return 1;
-    }
+        return rows;
+    });
 }

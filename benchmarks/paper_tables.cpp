@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <exception>
-#include <fstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,6 +15,7 @@
 #include "bound_tightness.hpp"
 #include "crossing.hpp"
 #include "cut_parts.hpp"
+#include "figures.hpp"
 #include "method_contest.hpp"
 
 namespace {
@@ -69,7 +68,7 @@ json measure_cuts(const Settings& set) {
     json rows = json::array();
     for (const std::string& scene : set.cuts) {
         const Workload work = set.workload(scene);
-        const CutParts parts = measure_cut_parts(work, {.clamp = work.clamp()});
+        const CutParts parts = measure_cut_parts(work, {.seed = work.options().seed, .clamp = work.clamp()});
         MethodContest contest(work, set.points_for(work.light_count()));
         const std::size_t cut = contest.add(by_lightcuts), ward = contest.add(by_ward);
         contest.run(set.runs);
@@ -268,7 +267,7 @@ int main(int argc, char** argv) {
     app.add_option("--width", set.width, "of the pictures, pixels; `bounds` uses a third")->check(CLI::Range(3, 10000));
     app.add_option("--height", set.height, "of the pictures, pixels; `bounds` uses a third")
         ->check(CLI::Range(3, 10000));
-    app.add_option("--runs", set.runs, "medians are over this odd number")->check(CLI::PositiveNumber);
+    app.add_option("--runs", set.runs, "medians are over this odd number")->check(odd_number());
     app.add_option("--points", set.points, "at most so many where methods are compared")->check(CLI::PositiveNumber);
     app.add_option("--terms", set.terms, "fewer points if these times the lights would be more, but 64");
     app.add_option("--cuts", set.cuts, "scenes of the table `cuts`");
@@ -280,16 +279,12 @@ int main(int argc, char** argv) {
     app.add_option("--error-ratios", set.error_ratios, "of the table `thresholds`")->delimiter(',');
     app.add_option("--representatives", set.representatives, "of the table `thresholds`")->delimiter(',');
     CLI11_PARSE(app, argc, argv);
-    try {
+    return write_figures("bench-paper_tables", "paper_tables.json", [&] {
         const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
         json result;
         for (const auto& [name, measure] : tables) {
             if (set.only.empty() || set.only == name) result[name] = measure(set);
         }
-        std::ofstream("paper_tables.json") << result.dump(2) << "\n";
-        return 0;
-    } catch (const std::exception& e) {
-        std::fprintf(stderr, "bench-paper_tables: %s\n", e.what());
-        return 1;
-    }
+        return result;
+    });
 }

@@ -9,9 +9,10 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include "embree.hpp"
-#include "emitters.hpp"
-#include "load_scene.hpp"
 #include "particle_scene.hpp"
+#include "prepare_scene.hpp"
+#include "prepared_scene.hpp"
+#include "scene_options.hpp"
 #include "spheres.hpp"
 #include "tbb_executor.hpp"
 #include "workload.hpp"
@@ -40,6 +41,9 @@ public:
         return scene_.intersect(origin, direction);
     }
     glm::vec3 diffuse_albedo(const render::ParticleScene::Meeting& met) const { return scene_.diffuse_albedo(met); }
+    glm::vec3 diffuse_transmittance(const render::ParticleScene::Meeting& met) const {
+        return scene_.diffuse_transmittance(met);
+    }
     lightcuts::ScatteredParticle<> scatter(const render::ParticleScene::Meeting& met, const glm::vec3& direction,
                                            const glm::vec3& u) const {
         return scene_.scatter(met, direction, u);
@@ -50,6 +54,8 @@ private:
     const render::ParticleScene& scene_;
     Recording& recording_;
 };
+static_assert(lightcuts::TransmissiveParticleScene<render::ParticleScene, glm::vec3> &&
+              lightcuts::TransmissiveParticleScene<RecordingScene, glm::vec3>);
 
 /// One thread, which notes where tasks end.
 struct RecordingExecutor {
@@ -114,21 +120,21 @@ Lap lap(F&& f) {
 }  // namespace
 
 ParticleCost measure_particles(const ParticleCostOptions& options) {
-    render::Scene scene = render::load_scene(options.scene);
-    render::add_emitter_lights(scene, options.area_points);
-    render::add_sphere_lights(scene, options.area_points, 1);
+    render::Options lighting = scene_options(options.scene, options.area_points);
+    const render::Scene scene = prepared_scene(options.scene, lighting);
     const auto shells = render::sphere_shells(scene);
     const render::RayScene rays(scene);
-    const render::ParticleScene surfaces(scene, rays, render::Shade::full);
+    const render::ParticleScene surfaces(scene, rays, render::shade_of(lighting));
     const lightcuts::ParticleSources sources(scene.omni, scene.oriented, scene.spots, scene.directional, shells);
     const lightcuts::ParticleOptions wanted{.lights = options.lights};
-    const lightcuts::LowDiscrepancy numbers{1};
+    const lightcuts::LowDiscrepancy numbers{lighting.seed};
 
     Recording recording;
-    lightcuts::virtual_lights(RecordingScene(surfaces, recording), sources, wanted, numbers,
-                              RecordingExecutor{recording});
+    const auto recorded = lightcuts::virtual_lights(RecordingScene(surfaces, recording), sources, wanted, numbers,
+                                                    RecordingExecutor{recording});
 
     ParticleCost cost;
+    cost.recorded_lights = recorded.lights.size();
     cost.rays = recording.rays.size();
     std::vector<double> seconds, ray_seconds, wall_seconds, ratios, wall_ratios;
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,

@@ -6,10 +6,8 @@
 
 #include <lightcuts/core/invalid_input.hpp>
 
-#include "indirect.hpp"
 #include "load_scene.hpp"
-#include "prepare_scene.hpp"
-#include "ray_scene.hpp"
+#include "prepared_scene.hpp"
 #include "scene_options.hpp"
 #include "scene_sheet.hpp"
 #include "view.hpp"
@@ -26,14 +24,7 @@ bool is_builtin(const std::string& scene) { return scene.starts_with("builtin:")
 
 /// `name` has the scene's options.
 std::shared_ptr<const render::Scene> load(render::Options& options, const std::string& name) {
-    auto scene = std::make_shared<render::Scene>();
-    try {
-        *scene = render::prepare_scene(options);
-    } catch (const render::usage_error& problem) { throw lightcuts::invalid_input(name + ": " + problem.what()); }
-    if (options.indirect > 0) {
-        const render::RayScene rays(*scene);
-        render::add_virtual_lights(*scene, rays, options.indirect, render::shade_of(options), options.seed);
-    }
+    auto scene = std::make_shared<render::Scene>(lit_scene(name, options));
     if (scene->light_count() == 0) {
         throw lightcuts::invalid_input(options.scene + ": all lights are black; leave the scene out");
     }

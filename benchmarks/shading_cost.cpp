@@ -14,15 +14,9 @@ double sum_of_channels(const glm::vec3& v) { return static_cast<double>(v.x) + v
 
 double squared(const glm::dvec3& v) { return v.x * v.x + v.y * v.y + v.z * v.z; }
 
-render::Options by(const std::string& method) {
-    render::Options options;
-    options.method = method;
-    return options;
-}
-
 /// The light of 64 samples, which are the same with any `rays`.
 std::vector<render::Shading> sampled(const ShadedPoints& where, const render::RayScene& rays) {
-    const auto shader = render::make_shader(where.scene(), rays, by("power"));
+    const auto shader = render::make_shader(where.scene(), rays, by("power", {}));
     const auto scratch = shader->make_scratch();
     std::vector<render::Shading> shadings(where.points().size());
     shader->shade(where.points(), shadings, *scratch);
@@ -36,6 +30,11 @@ std::vector<render::SurfacePoint> spread(std::span<const render::SurfacePoint> p
     std::vector<render::SurfacePoint> some;
     for (std::size_t i = 0; i < points.size(); i += stride) some.push_back(points[i]);
     return some;
+}
+
+render::Options by(const std::string& method, render::Options options) {
+    options.method = method;
+    return options;
 }
 
 ShadedPoints::ShadedPoints(render::Scene scene, int width, int height, render::Shade shade)
@@ -52,10 +51,6 @@ std::vector<render::SurfacePoint> ShadedPoints::with_clear_view() const {
     }
     return clear;
 }
-
-TimedMethod::TimedMethod(render::Scene scene, const render::RayScene& rays,
-                         std::span<const render::SurfacePoint> points, const std::string& method)
-    : TimedMethod(std::move(scene), rays, points, by(method)) {}
 
 TimedMethod::TimedMethod(render::Scene scene, const render::RayScene& rays,
                          std::span<const render::SurfacePoint> points, const render::Options& options)

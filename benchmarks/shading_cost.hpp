@@ -17,6 +17,9 @@ namespace benchmark {
 /// Every `stride`-th point, such that about `count` are left, but at least one.
 std::vector<render::SurfacePoint> spread(std::span<const render::SurfacePoint> points, std::size_t count);
 
+/// `options` with this method.
+render::Options by(const std::string& method, render::Options options);
+
 /// The points that a small picture of a scene shades, in the renderer's order.
 class ShadedPoints {
 public:
@@ -50,10 +53,7 @@ struct ShadingCost {
 /// One method with its lights and trees, ready to be timed.
 class TimedMethod {
 public:
-    /// `scene`: with the surfaces of `rays`. `method`: as the renderer's option. `rays` and `points` are kept.
-    TimedMethod(render::Scene scene, const render::RayScene& rays, std::span<const render::SurfacePoint> points,
-                const std::string& method);
-    /// The same by a method with options of its own.
+    /// `scene`: with the surfaces of `rays`. `rays` and `points` are kept.
     TimedMethod(render::Scene scene, const render::RayScene& rays, std::span<const render::SurfacePoint> points,
                 const render::Options& options);
 

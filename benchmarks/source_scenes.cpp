@@ -11,8 +11,6 @@
 #include <lightcuts/source/environment.hpp>
 
 #include "load_scene.hpp"
-#include "prepare_scene.hpp"
-#include "scene_options.hpp"
 
 namespace benchmark {
 
@@ -33,11 +31,6 @@ glm::vec3 sky(const glm::dvec3& direction) {
 }
 
 }  // namespace
-
-render::Scene scene_with_lights(const std::string& name, std::uint32_t points) {
-    render::Options options = scene_options(name, points);
-    return render::prepare_scene(options);
-}
 
 render::Scene room_with_lamp(std::size_t points) {
     render::Scene scene = render::load_scene("builtin:surfaces?lights=1&rotated=0");

@@ -1,16 +1,10 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
-#include <string>
 
 #include "scene.hpp"
 
 namespace benchmark {
-
-/// The scene `name` says, with options after a `?`, and `points` lights per emissive surface where it does not say.
-/// throws: lightcuts::invalid_input
-render::Scene scene_with_lights(const std::string& name, std::uint32_t points);
 
 /// The furnished room of `builtin:surfaces`, lit by one square lamp under its ceiling that is `points` oriented lights.
 render::Scene room_with_lamp(std::size_t points);

@@ -3,17 +3,18 @@
 /// very many lights over the hall. Prints a table and writes sources.json.
 
 #include <cstdio>
-#include <exception>
-#include <fstream>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
+#include <lightcuts/core/invalid_input.hpp>
 #include <nlohmann/json.hpp>
 
+#include "figures.hpp"
 #include "particle_cost.hpp"
 #include "prepare_scene.hpp"
+#include "prepared_scene.hpp"
 #include "scene_options.hpp"
 #include "shading_cost.hpp"
 #include "source_scenes.hpp"
@@ -66,7 +67,7 @@ public:
                          {"relative_rmse", known ? nlohmann::json(error) : nlohmann::json()}});
     }
 
-    std::string json() const { return rows_.dump(2) + "\n"; }
+    const nlohmann::json& rows() const { return rows_; }
 
 private:
     nlohmann::json rows_ = nlohmann::json::array();
@@ -92,8 +93,11 @@ void particles(const Settings& set, Table& table) {
 }
 
 void under_map(const std::string& name, const Settings& set, Table& table) {
-    const render::Options options = scene_options(name, set.area_points);
-    render::Scene scene = scene_with_lights(name, set.area_points);
+    render::Options options = scene_options(name, set.area_points);
+    render::Scene scene = prepared_scene(name, options);
+    if (options.indirect > 0) {
+        throw lightcuts::invalid_input(name + ": virtual lights do not stand for a map; say indirect=0");
+    }
     surround(scene);
     const ShadedPoints where(scene, set.width, set.height, render::shade_of(options));
     const std::vector<render::SurfacePoint> some = where.about(set.error_points);
@@ -101,8 +105,9 @@ void under_map(const std::string& name, const Settings& set, Table& table) {
     std::vector<double> errors;
     for (const std::size_t lights : set.environment_lights) {
         light_by_map(scene, lights);
-        methods.emplace_back(scene, where.rays(), where.points(), "lightcuts");
-        TimedMethod cut(scene, where.rays(), some, "lightcuts"), truth(scene, where.rays(), some, "exhaustive");
+        methods.emplace_back(scene, where.rays(), where.points(), by("lightcuts", options));
+        TimedMethod cut(scene, where.rays(), some, by("lightcuts", options));
+        TimedMethod truth(scene, where.rays(), some, by("exhaustive", options));
         cut.run();
         truth.run();
         errors.push_back(relative_rmse(cut.shadings(), truth.shadings()));
@@ -119,11 +124,11 @@ void environment(const Settings& set, Table& table) {
 }
 
 void few_lights(const Settings& set, Table& table) {
-    const auto compare = [&](const std::string& name, const render::Scene& scene) {
-        const ShadedPoints where(scene, set.width, set.height);
+    const auto compare = [&](const std::string& name, render::Scene scene, const render::Options& options) {
+        const ShadedPoints where(std::move(scene), set.width, set.height, render::shade_of(options));
         std::vector<TimedMethod> methods;
         for (const char* method : {"exhaustive", "lightcuts"}) {
-            methods.emplace_back(scene, where.rays(), where.points(), method);
+            methods.emplace_back(where.scene(), where.rays(), where.points(), by(method, options));
         }
         run_by_turns(methods, set.runs);
         const ShadingCost& truth = methods[0].cost();
@@ -131,19 +136,29 @@ void few_lights(const Settings& set, Table& table) {
         table.add("few", name, "lightcuts", methods[1].cost(), time_ratio(methods[1].cost(), truth),
                   relative_rmse(methods[1].shadings(), methods[0].shadings()));
     };
-    for (const std::size_t lights : set.lamp_lights) compare("room with one lamp", room_with_lamp(lights));
-    for (const std::string& scene : set.few) compare(scene, scene_with_lights(scene, set.area_points));
+    for (const std::size_t lights : set.lamp_lights) compare("room with one lamp", room_with_lamp(lights), {});
+    for (const std::string& name : set.few) {
+        render::Options options = scene_options(name, set.area_points);
+        render::Scene scene = lit_scene(name, options);
+        compare(name, std::move(scene), options);
+    }
 }
 
 void many_lights(const Settings& set, Table& table) {
-    const ShadedPoints usual(scene_with_lights(set.usual, set.area_points), set.width, set.height);
+    const auto seen = [&](const std::string& name, render::Options& options) {
+        options = scene_options(name, set.area_points);
+        render::Scene scene = lit_scene(name, options);
+        return ShadedPoints(std::move(scene), set.width, set.height, render::shade_of(options));
+    };
+    render::Options usual_options, options;
+    const ShadedPoints usual = seen(set.usual, usual_options);
     for (const std::string& name : set.many) {
-        const ShadedPoints where(scene_with_lights(name, set.area_points), set.width, set.height);
+        const ShadedPoints where = seen(name, options);
         const std::vector<render::SurfacePoint> clear = where.with_clear_view();
         std::vector<TimedMethod> methods;
-        methods.emplace_back(usual.scene(), usual.rays(), usual.points(), "lightcuts");
-        methods.emplace_back(where.scene(), where.rays(), where.points(), "lightcuts");
-        if (!clear.empty()) methods.emplace_back(where.scene(), where.rays(), clear, "lightcuts");
+        methods.emplace_back(usual.scene(), usual.rays(), usual.points(), by("lightcuts", usual_options));
+        methods.emplace_back(where.scene(), where.rays(), where.points(), by("lightcuts", options));
+        if (!clear.empty()) methods.emplace_back(where.scene(), where.rays(), clear, by("lightcuts", options));
         run_by_turns(methods, set.runs);
         for (std::size_t i = 0; i < methods.size(); ++i) {
             table.add("many", i == 0 ? set.usual : name, i < 2 ? "all points" : "with clear view", methods[i].cost(),
@@ -152,25 +167,28 @@ void many_lights(const Settings& set, Table& table) {
     }
 }
 
-void run(const Settings& set) {
-    const std::pair<const char*, void (*)(const Settings&, Table&)> parts[] = {
-        {"particles", particles}, {"environment", environment}, {"few", few_lights}, {"many", many_lights}};
+constexpr std::pair<const char*, void (*)(const Settings&, Table&)> parts[] = {
+    {"particles", particles}, {"environment", environment}, {"few", few_lights}, {"many", many_lights}};
+
+nlohmann::json measure_all(const Settings& set) {
     Table table;
     for (const auto& [name, measure] : parts) {
-        if (std::string(name).find(set.only) != std::string::npos) measure(set, table);
+        if (set.only.empty() || set.only == name) measure(set, table);
     }
-    std::ofstream("sources.json") << table.json();
+    return table.rows();
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+    std::vector<std::string> names;
+    for (const auto& [name, measure] : parts) names.push_back(name);
     Settings set;
     CLI::App app{"Cost of virtual lights, environment maps, few lights and very many"};
-    app.add_option("--only", set.only, "measure only parts whose name contains this");
+    app.add_option("--only", set.only, "measure only this part")->check(CLI::IsMember(names));
     app.add_option("--width", set.width, "of the pictures, pixels")->check(CLI::PositiveNumber);
     app.add_option("--height", set.height, "of the pictures, pixels")->check(CLI::PositiveNumber);
-    app.add_option("--runs", set.runs, "medians are over this odd number")->check(CLI::PositiveNumber);
+    app.add_option("--runs", set.runs, "medians are over this odd number")->check(odd_number());
     app.add_option("--threads", set.threads, "that generate virtual lights")->check(CLI::PositiveNumber);
     app.add_option("--area-points", set.area_points, "lights per emissive surface");
     app.add_option("--virtual-lights", set.virtual_lights, "to be generated")->check(CLI::PositiveNumber);
@@ -182,11 +200,5 @@ int main(int argc, char** argv) {
     app.add_option("--few", set.few, "scenes with few lights");
     app.add_option("--many", set.many, "scenes with very many lights");
     CLI11_PARSE(app, argc, argv);
-    try {
-        run(set);
-        return 0;
-    } catch (const std::exception& e) {
-        std::fprintf(stderr, "bench-sources: %s\n", e.what());
-        return 1;
-    }
+    return write_figures("bench-sources", "sources.json", [&] { return measure_all(set); });
 }

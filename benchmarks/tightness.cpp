@@ -2,8 +2,6 @@
 /// and writes tightness.json.
 
 #include <cstdio>
-#include <exception>
-#include <fstream>
 #include <string>
 #include <vector>
 
@@ -11,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bound_tightness.hpp"
+#include "figures.hpp"
 
 namespace {
 
@@ -49,7 +48,7 @@ int main(int argc, char** argv) {
     app.add_option("--height", height, "of the picture, pixels");
     app.add_option("--max-cut", max_cut, "most clusters in a cut; 0: unlimited");
     CLI11_PARSE(app, argc, argv);
-    try {
+    return write_figures("bench-tightness", "tightness.json", [&] {
         nlohmann::json rows = nlohmann::json::array();
         std::printf("%-44s %7s %6s | %7s | %7s %7s %8s | %8s %8s %8s | %8s\n", "mean cut size by bounds", "lights",
                     "points", "exact", "default", "tight", "separate", "/exact", "/exact", "/exact", "median");
@@ -62,9 +61,6 @@ int main(int argc, char** argv) {
             std::fflush(stdout);
             rows.push_back(to_json(r));
         }
-        std::ofstream("tightness.json") << rows.dump(2) << "\n";
-    } catch (const std::exception& e) {
-        std::fprintf(stderr, "bench-tightness: %s\n", e.what());
-        return 1;
-    }
+        return rows;
+    });
 }

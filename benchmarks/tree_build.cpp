@@ -10,7 +10,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
 #include <functional>
 #include <memory>
 #include <new>
@@ -34,6 +33,7 @@
 #include <lightcuts/tree/statistics.hpp>
 #include <nlohmann/json.hpp>
 
+#include "figures.hpp"
 #include "workload.hpp"
 
 namespace {
@@ -352,18 +352,20 @@ int main(int argc, char** argv) {
     Options options;
     CLI::App app{"Time and memory of the tree builders"};
     app.add_option("--only", options.only, "measure only rows whose name (lights builder) contains this");
-    app.add_option("--runs", options.runs, "of which the median is taken")->check(CLI::PositiveNumber);
+    app.add_option("--runs", options.runs, "odd, of which the median is taken")->check(benchmark::odd_number());
     app.add_option("--max-divide", options.max_divide, "most lights for divide, say 10000000");
     app.add_option("--max-agglomerate", options.max_agglomerate, "most lights for agglomerate");
     CLI11_PARSE(app, argc, argv);
 
-    Table table(options);
-    table.measure<OrientedItem>("ceiling", ceiling, oriented_light, below_ceiling());
-    table.measure<OrientedItem>(
-        "surfaces", [](std::size_t n) { return surfaces(n, 0.0f); }, oriented_light, between_surfaces());
-    table.measure<OrientedItem>(
-        "bumpy", [](std::size_t n) { return surfaces(n, 0.2f); }, oriented_light, between_surfaces());
-    table.measure<PointItem>("volume", volume, omni_light, in_volume());
-    table.measure<PointItem>("directional", directions, distant_light, in_volume());
-    std::ofstream("tree_build.json") << table.rows().dump(2) << "\n";
+    return benchmark::write_figures("bench-tree_build", "tree_build.json", [&] {
+        Table table(options);
+        table.measure<OrientedItem>("ceiling", ceiling, oriented_light, below_ceiling());
+        table.measure<OrientedItem>(
+            "surfaces", [](std::size_t n) { return surfaces(n, 0.0f); }, oriented_light, between_surfaces());
+        table.measure<OrientedItem>(
+            "bumpy", [](std::size_t n) { return surfaces(n, 0.2f); }, oriented_light, between_surfaces());
+        table.measure<PointItem>("volume", volume, omni_light, in_volume());
+        table.measure<PointItem>("directional", directions, distant_light, in_volume());
+        return table.rows();
+    });
 }

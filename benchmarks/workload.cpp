@@ -4,8 +4,8 @@
 
 #include <lightcuts/core/invalid_input.hpp>
 
-#include "indirect.hpp"
 #include "prepare_scene.hpp"
+#include "prepared_scene.hpp"
 #include "scene_options.hpp"
 #include "tile_order.hpp"
 #include "view.hpp"
@@ -31,10 +31,9 @@ std::vector<render::SurfacePoint> points_seen(const render::Scene& scene, const 
 }
 
 Workload::Workload(const std::string& scene, int width, int height)
-    : options_(scene_options(scene)), scene_(std::make_unique<render::Scene>(render::prepare_scene(options_))),
+    : options_(scene_options(scene)), scene_(std::make_unique<render::Scene>(lit_scene(scene, options_))),
       rays_(std::make_unique<render::RayScene>(*scene_)) {
     if (rays_->transmissive()) throw lightcuts::invalid_input(scene + ": lets light pass, which is not measured");
-    render::add_virtual_lights(*scene_, *rays_, options_.indirect, render::shade_of(options_), options_.seed);
     lights_ = std::make_unique<render::SceneLights>(*scene_, options_);
 
     points_ = points_seen(*scene_, *rays_, width, height, render::shade_of(options_));

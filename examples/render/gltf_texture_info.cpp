@@ -27,14 +27,24 @@ glm::dvec2 pair(const tinygltf::Value& transform, const char* member, double oth
     return {value.Get(0).GetNumberAsDouble(), value.Get(1).GetNumberAsDouble()};
 }
 
+/// `key`: of the textureInfo.
+int whole_number(const tinygltf::Value& info, const char* key, const char* member) {
+    const tinygltf::Value& value = info.Get(member);
+    if (!value.IsInt() || value.GetNumberAsInt() < 0) {
+        throw lightcuts::invalid_input(std::string(key) + ": its " + member +
+                                       " is not a whole number of at least 0; correct it");
+    }
+    return value.GetNumberAsInt();
+}
+
 }  // namespace
 
 tinygltf::TextureInfo texture_info(const tinygltf::Value& extension, const char* key) {
     tinygltf::TextureInfo info;
     if (!extension.Has(key)) return info;
     const tinygltf::Value& value = extension.Get(key);
-    if (value.Has("index")) info.index = value.Get("index").GetNumberAsInt();
-    if (value.Has("texCoord")) info.texCoord = value.Get("texCoord").GetNumberAsInt();
+    info.index = whole_number(value, key, "index");
+    if (value.Has("texCoord")) info.texCoord = whole_number(value, key, "texCoord");
     if (value.Has("extensions") && value.Get("extensions").IsObject()) {
         info.extensions = value.Get("extensions").Get<tinygltf::Value::Object>();
     }

@@ -13,6 +13,7 @@ struct TextureUse {
 };
 
 /// The textureInfo `key` of an extension; one without index if it is not there.
+/// throws: invalid_input naming it if its index or set of coordinates is no whole number of at least 0.
 tinygltf::TextureInfo texture_info(const tinygltf::Value& extension, const char* key);
 
 /// Of a textureInfo with these members, the extension KHR_texture_transform applied.

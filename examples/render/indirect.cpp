@@ -23,7 +23,7 @@ void add_virtual_lights(Scene& scene, const RayScene& rays, std::size_t count, S
         scene.virtual_lights.reserve(indirect.lights.size());
         for (const auto& light : indirect.lights) scene.virtual_lights.push_back({light});
     } catch (const lightcuts::invalid_input& problem) {
-        throw lightcuts::invalid_input(scene.name + ": " + problem.what() + "; leave out --indirect or add lights");
+        throw lightcuts::invalid_input(scene.name + ": " + problem.what() + "; give --indirect 0 or add lights");
     }
 }
 

@@ -8,6 +8,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -22,6 +23,7 @@
 #include <lightcuts/core/vector.hpp>
 
 #include "gltf_accessor.hpp"
+#include "gltf_diffuse_transmission.hpp"
 #include "gltf_texture_info.hpp"
 #include "text_file.hpp"
 #include "texture.hpp"
@@ -185,46 +187,38 @@ private:
         m.ior = static_cast<float>(number(extension_value(source.extensions, "KHR_materials_ior", "ior"), 1.5));
         m.transmission = static_cast<float>(
             number(extension_value(source.extensions, "KHR_materials_transmission", "transmissionFactor"), 0.0));
-        add_diffuse_transmission(source, m);
+        const auto thin = of_material(source, [&] { return diffuse_transmission(source.extensions); });
+        add_diffuse_transmission(thin, m);
         m.double_sided = source.doubleSided;
         if (source.alphaMode == "MASK") m.alpha = Material::Alpha::mask;
         if (source.alphaMode == "BLEND") m.alpha = Material::Alpha::blend;
         m.alpha_cutoff = static_cast<float>(source.alphaCutoff);
-        uv_sets_.push_back(add_texture_uses(source, m));
+        uv_sets_.push_back(add_texture_uses(source, thin, m));
         scene_.materials.push_back(m);
     }
 
-    static tinygltf::Value diffuse_transmission(const tinygltf::Material& source) {
-        const auto found = source.extensions.find("KHR_materials_diffuse_transmission");
-        return found != source.extensions.end() ? found->second : tinygltf::Value();
+    void add_diffuse_transmission(const GltfDiffuseTransmission& source, Material& m) {
+        m.diffuse_transmission = source.factor;
+        if (m.diffuse_transmission == 0.0f) return;
+        m.diffuse_transmission_texture = texture(source.texture.index, false);
+        m.diffuse_transmission_color = source.color;
+        m.diffuse_transmission_color_texture = texture(source.color_texture.index, true);
     }
 
-    void add_diffuse_transmission(const tinygltf::Material& source, Material& m) {
-        const tinygltf::Value extension = diffuse_transmission(source);
-        if (!extension.IsObject()) return;
-        m.diffuse_transmission = static_cast<float>(number(extension.Get("diffuseTransmissionFactor"), 0.0));
-        if (m.diffuse_transmission == 0.0f) return;
-        m.diffuse_transmission_texture = texture(texture_info(extension, "diffuseTransmissionTexture").index, false);
-        const tinygltf::Value& color = extension.Get("diffuseTransmissionColorFactor");
-        std::vector<double> factors;
-        for (std::size_t i = 0; i < color.ArrayLen(); ++i)
-            factors.push_back(number(color.Get(static_cast<int>(i)), 1.0));
-        m.diffuse_transmission_color = to_vec3(factors, 1.0);
-        m.diffuse_transmission_color_texture = texture(texture_info(extension, "diffuseTransmissionColorTexture").index,
-                                                       true);
+    /// What `read` returns; what it refuses is said of the material.
+    template <class Read>
+    std::invoke_result_t<Read> of_material(const tinygltf::Material& source, const Read& read) const {
+        try {
+            return read();
+        } catch (const lightcuts::invalid_input& problem) { fail("material '" + source.name + "': " + problem.what()); }
     }
 
     /// Says how the material's textures are addressed; returns the one set of uvs that all of them ask for.
-    int add_texture_uses(const tinygltf::Material& source, Material& m) const {
+    int add_texture_uses(const tinygltf::Material& source, const GltfDiffuseTransmission& thin, Material& m) const {
         int set = -1;
         const auto add = [&](int texture, const tinygltf::TextureInfo& info, UvTransform& transform) {
             if (texture == no_texture) return;
-            TextureUse use;
-            try {
-                use = texture_use(info.texCoord, info.extensions);
-            } catch (const lightcuts::invalid_input& problem) {
-                fail("material '" + source.name + "': " + problem.what());
-            }
+            const TextureUse use = of_material(source, [&] { return texture_use(info.texCoord, info.extensions); });
             if (set >= 0 && set != use.uv_set) {
                 fail("material '" + source.name + "' uses two sets of texture coordinates; export with one");
             }
@@ -235,11 +229,8 @@ private:
         add(m.metallic_roughness_texture, source.pbrMetallicRoughness.metallicRoughnessTexture,
             m.metallic_roughness_uv);
         add(m.emission_texture, source.emissiveTexture, m.emission_uv);
-        const tinygltf::Value thin = diffuse_transmission(source);
-        add(m.diffuse_transmission_texture, texture_info(thin, "diffuseTransmissionTexture"),
-            m.diffuse_transmission_uv);
-        add(m.diffuse_transmission_color_texture, texture_info(thin, "diffuseTransmissionColorTexture"),
-            m.diffuse_transmission_color_uv);
+        add(m.diffuse_transmission_texture, thin.texture, m.diffuse_transmission_uv);
+        add(m.diffuse_transmission_color_texture, thin.color_texture, m.diffuse_transmission_color_uv);
         return std::max(set, 0);
     }
 

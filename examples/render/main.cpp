@@ -134,6 +134,15 @@ void warn_of_few_virtual_lights(const Scene& scene, const Options& options) {
                  count, static_cast<double>(clamp.ratio));
 }
 
+/// Of an error that is that of clamping rather than of the method.
+void warn_of_clamped_reference(const Scene& scene, const Options& options) {
+    if (options.quiet || options.reference.empty() || scene.virtual_lights.empty() || !options.is_clamp_idle()) return;
+    std::fprintf(stderr,
+                 "lightcuts-render: warning: --method %s does not clamp virtual lights; compare it with a --reference "
+                 "of --clamp off\n",
+                 options.method.c_str());
+}
+
 ExitStatus render_scene(Options options) {
     const Outputs outputs(options.output);
     outputs.require_all_writable();
@@ -156,6 +165,7 @@ ExitStatus render_scene(Options options) {
         const Shade shade = shade_of(options);
         add_virtual_lights(scene, rays, options.indirect, shade, options.seed);
         warn_of_few_virtual_lights(scene, options);
+        warn_of_clamped_reference(scene, options);
         report.seconds.particles = watch.lap();
         const auto shader = make_shader(scene, rays, options);
         report.seconds.tree = watch.lap();

@@ -21,18 +21,11 @@ constexpr long long largest_picture = 1ll << 27;  ///< pixels
 const std::vector<std::string> methods = {"exhaustive",         "lightcuts",           "ward", "power", "tree-sampling",
                                           "adaptive-splitting", "stochastic-lightcuts"};
 const std::vector<std::string> later_methods = {"multidimensional", "reconstruction", "row-column"};
-const std::vector<std::string> clamping_methods = {"exhaustive", "lightcuts"};
 const std::vector<std::string> later_options = {"--instants", "--shutter", "--aperture", "--focus", "--fog"};
 const std::vector<std::string> builders = {"binned", "agglomerate", "longest-axis"};
 
 bool contains(const std::vector<std::string>& words, const std::string& word) {
     return std::find(words.begin(), words.end(), word) != words.end();
-}
-
-std::string listed(const std::vector<std::string>& words) {
-    std::string text;
-    for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-    return text;
 }
 
 /// All of `text` as a finite number.
@@ -148,11 +141,6 @@ void set_clamp(Options& options, const std::string& mode, std::optional<float> r
 }
 
 void check_together(const Options& options) {
-    const bool clamp_given = options.is_given("--clamp") || options.is_given("--clamp-ratio");
-    if (options.indirect > 0 && clamp_given && options.clamp.has_threshold() && !options.clamping().has_threshold()) {
-        throw usage_error("--method " + options.method +
-                          " does not clamp virtual lights: give --clamp off, or one of " + listed(clamping_methods));
-    }
     if (options.eye.has_value() != options.target.has_value()) {
         throw usage_error(std::string(options.eye ? "--eye needs --target" : "--target needs --eye") + " X,Y,Z too");
     }
@@ -176,12 +164,23 @@ bool Options::is_given(const std::string& name) const { return contains(given, n
 bool Options::has_aov(const std::string& name) const { return contains(aovs, name); }
 
 lightcuts::ClampOptions Options::clamping() const {
-    return contains(clamping_methods, method) ? clamp : lightcuts::ClampOptions{};
+    return contains(clamping_methods(), method) ? clamp : lightcuts::ClampOptions{};
+}
+
+const std::vector<std::string>& clamping_methods() {
+    static const std::vector<std::string> names = {"exhaustive", "lightcuts"};
+    return names;
 }
 
 const std::vector<std::string>& aov_names() {
     static const std::vector<std::string> names = {"cut_size", "shadow_rays", "error_bound", "depth", "normal"};
     return names;
+}
+
+std::string listed(const std::vector<std::string>& words) {
+    std::string text;
+    for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+    return text;
 }
 
 std::string one_line(const std::string& text) {

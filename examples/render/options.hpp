@@ -79,12 +79,18 @@ struct Options {
 
     /// What the method does to virtual lights: nothing if it is none of those that clamp.
     lightcuts::ClampOptions clamping() const;
+    /// Virtual lights would be clamped, but not by this method.
+    bool is_clamp_idle() const { return clamp.has_threshold() && !clamping().has_threshold(); }
 };
 
+const std::vector<std::string>& clamping_methods();
 const std::vector<std::string>& aov_names();
 
 /// throws: usage_error for an unknown option, a bad value, or an option that a later version will bring.
 Options parse_options(int argc, const char* const* argv);
+
+/// The words separated by commas.
+std::string listed(const std::vector<std::string>& words);
 
 /// The words as one line; for messages of others, which may have several.
 std::string one_line(const std::string& text);

@@ -18,7 +18,7 @@ namespace {
 using lightcuts::invalid_input;
 
 [[noreturn]] void refuse(const std::filesystem::path& target, const std::string& reason) {
-    throw invalid_input(target.string() + ": cannot be written (" + reason + "); choose another --output");
+    throw invalid_input(target.string() + ": cannot be written (" + reason + "); choose another place");
 }
 
 /// Creates an empty file of an unused name beside `target`, with the rights that any new file gets.

@@ -57,10 +57,11 @@ Json options_json(const RunReport& report) {
     json["turbidity"] = as_written(o.turbidity);
     json["sky_lights"] = o.sky_lights;
     json["indirect"] = o.indirect;
-    json["clamp"] = o.clamp.is_automatic()    ? Json("auto")
-                    : o.clamp.has_threshold() ? Json(as_written(o.clamp.radiance))
-                                              : Json("off");
-    json["clamp_ratio"] = o.clamp.is_automatic() ? Json(as_written(o.clamp.ratio)) : Json(nullptr);
+    const lightcuts::ClampOptions clamp = o.clamping();
+    json["clamp"] = clamp.is_automatic()    ? Json("auto")
+                    : clamp.has_threshold() ? Json(as_written(clamp.radiance))
+                                            : Json("off");
+    json["clamp_ratio"] = clamp.is_automatic() ? Json(as_written(clamp.ratio)) : Json(nullptr);
     json["materials"] = o.diffuse_materials ? "diffuse" : "full";
     json["reference"] = path_or_null(o.reference);
     json["aov"] = o.aovs;

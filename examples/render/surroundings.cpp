@@ -90,6 +90,15 @@ void refuse_given(const Options& options, std::initializer_list<const char*> det
     }
 }
 
+/// Throws if virtual lights are to be clamped, as was asked for, and the method cannot.
+void refuse_idle_clamp(const Options& options) {
+    const bool given = options.is_given("--clamp") || options.is_given("--clamp-ratio");
+    if (options.indirect > 0 && given && options.is_clamp_idle()) {
+        throw usage_error("--method " + options.method +
+                          " does not clamp virtual lights: give --clamp off, or one of " + listed(clamping_methods()));
+    }
+}
+
 }  // namespace
 
 Picture read_hdr(const std::filesystem::path& path) {
@@ -136,6 +145,7 @@ void add_surroundings(Scene& scene, Options& options) {
     } else {
         refuse_given(options, {"--turbidity", "--sky-lights"}, "--sun-sky");
     }
+    refuse_idle_clamp(options);
 }
 
 }  // namespace render

@@ -1,27 +1,17 @@
 #include <algorithm>
 #include <filesystem>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "render/process.hpp"
-#include "render/temporary_folder.hpp"
+#include "program.hpp"
 
 namespace {
 
-struct ErrorVsTime : testing::Test {
-    TemporaryFolder folder;
-    TemporaryFolder streams;
-
-    Process::Result run(const std::string& arguments) {
-        std::vector<std::string> words;
-        std::istringstream text(arguments);
-        for (std::string word; text >> word;) words.push_back(word);
-        return Process(LIGHTCUTS_ERROR_VS_TIME_EXECUTABLE, words, folder.path(), streams.path()).wait();
-    }
+struct ErrorVsTime : BenchmarkProgram {
+    ErrorVsTime() : BenchmarkProgram(LIGHTCUTS_ERROR_VS_TIME_EXECUTABLE) {}
 };
 
 const std::string lamp = "newmtl lamp\nKd 0 0 0\nKe 9 9 9\nnewmtl wall\nKd 0.5 0.5 0.5\n";
@@ -35,7 +25,7 @@ TEST_F(ErrorVsTime, WritesFiguresPlotsAndPictures) {
     ASSERT_EQ(result.status, 0) << result.err;
     EXPECT_EQ(result.err, "");
 
-    const auto json = nlohmann::json::parse(folder.read("error_vs_time.json"));
+    const auto json = figures("error_vs_time.json");
     ASSERT_EQ(json.at("scenes").size(), 1u);
     const auto& scene = json.at("scenes")[0];
     EXPECT_EQ(scene.at("lights"), 64);
@@ -52,7 +42,7 @@ TEST_F(ErrorVsTime, WritesFiguresPlotsAndPictures) {
             EXPECT_GE(point.at("error").at("relative_rmse"), curve.at("points").back().at("error").at("relative_rmse"));
         }
     }
-    EXPECT_EQ(scene.at("equal_time").size(), 2u);  // lightcuts with 1 and with 8 representatives
+    EXPECT_EQ(scene.at("equal_time").size(), 3u);  // lightcuts, with 8 representatives, of up to 4000 clusters
 
     const std::string csv = folder.read("error_vs_time.csv");
     EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')), 1 + settings);
@@ -70,7 +60,7 @@ TEST_F(ErrorVsTime, WritesFiguresPlotsAndPictures) {
 TEST_F(ErrorVsTime, ComparesMethodsThatDoNotClampWithASumThatDoesNot) {
     const auto result = run("--scene builtin:hall?area-points=1&indirect=150 --width 16 --height 9 --quick");
     ASSERT_EQ(result.status, 0) << result.err;
-    const auto json = nlohmann::json::parse(folder.read("error_vs_time.json"));
+    const auto json = figures("error_vs_time.json");
     const auto& scene = json.at("scenes")[0];
     EXPECT_NEAR(scene.at("lights").get<double>(), 72.0 + 150.0, 30.0);
     EXPECT_GT(scene.at("exhaustive_not_clamped").at("seconds"), 0.0);
@@ -82,8 +72,7 @@ TEST_F(ErrorVsTime, ComparesMethodsThatDoNotClampWithASumThatDoesNot) {
     }
     const auto off = run("--scene builtin:hall?area-points=1&indirect=150&clamp=off --width 16 --height 9 --quick");
     ASSERT_EQ(off.status, 0) << off.err;
-    EXPECT_FALSE(
-        nlohmann::json::parse(folder.read("error_vs_time.json")).at("scenes")[0].contains("exhaustive_not_clamped"));
+    EXPECT_FALSE(figures("error_vs_time.json").at("scenes")[0].contains("exhaustive_not_clamped"));
 }
 
 TEST_F(ErrorVsTime, UsesTheCamerasOfASceneJson) {
@@ -94,7 +83,7 @@ TEST_F(ErrorVsTime, UsesTheCamerasOfASceneJson) {
     folder.write("room.obj", room);
     const auto result = run("--scene room.obj --height 20 --runs 1 --area-points 8");
     ASSERT_EQ(result.status, 0) << result.err;
-    const auto json = nlohmann::json::parse(folder.read("error_vs_time.json"));
+    const auto json = figures("error_vs_time.json");
     ASSERT_EQ(json.at("scenes").size(), 2u);
     EXPECT_EQ(json.at("scenes")[1].at("name"), "room, camera 1");
     EXPECT_EQ(json.at("scenes")[0].at("size"), (std::vector<int>{10, 20}));
@@ -121,6 +110,7 @@ TEST_F(ErrorVsTime, RefusesInOneLineAndWritesNothing) {
         {"--scene bad/room.obj?indirect=10&method=power", 1, "'method=power'"},
         {"--output no/such/folder", 1, "no/such/folder"},
         {"--runs 0", 2, "--runs"},
+        {"--runs 2", 2, "--runs"},
         {"--width 0", 2, "--width"},
         {"--unknown", 2, "--unknown"},
     };

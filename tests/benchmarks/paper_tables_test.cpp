@@ -1,5 +1,4 @@
 #include <cmath>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -9,28 +8,23 @@
 #include "benchmarks/crossing.hpp"
 #include "benchmarks/cut_parts.hpp"
 #include "benchmarks/method_contest.hpp"
-#include "render/process.hpp"
-#include "render/temporary_folder.hpp"
+#include "program.hpp"
 
 namespace {
 
 using nlohmann::json;
 
-struct PaperTables : testing::Test {
-    TemporaryFolder folder;
-    TemporaryFolder streams;
+struct PaperTables : BenchmarkProgram {
+    PaperTables() : BenchmarkProgram(LIGHTCUTS_PAPER_TABLES_EXECUTABLE) {}
 
-    Process::Result run(const std::string& arguments) {
-        std::vector<std::string> words;
-        std::istringstream text("--width 18 --height 12 --runs 1 --points 20 " + arguments);
-        for (std::string word; text >> word;) words.push_back(word);
-        return Process(LIGHTCUTS_PAPER_TABLES_EXECUTABLE, words, folder.path(), streams.path()).wait();
+    Process::Result measure(const std::string& arguments) {
+        return run("--width 18 --height 12 --runs 1 --points 20 " + arguments);
     }
-    json tables() const { return json::parse(folder.read("paper_tables.json")); }
+    json tables() const { return figures("paper_tables.json"); }
 };
 
 TEST_F(PaperTables, HaveARowForAllThatIsAsked) {
-    const auto result = run(
+    const auto result = measure(
         "--cuts builtin:hall?area-points=4&indirect=300 builtin:directional?lights=200 "
         "--hall-points 1,4 --map-lights 20,50 --bounds builtin:omni?lights=300 "
         "--speed-up builtin:omni?lights=300 --thresholds builtin:omni?lights=300 "
@@ -73,13 +67,13 @@ TEST_F(PaperTables, HaveARowForAllThatIsAsked) {
 }
 
 TEST_F(PaperTables, AreMeasuredAlone) {
-    const auto result = run("--only bounds --bounds builtin:omni?lights=50");
+    const auto result = measure("--only bounds --bounds builtin:omni?lights=50");
     ASSERT_EQ(result.status, 0) << result.err;
     EXPECT_EQ(tables().size(), 1u);
 }
 
 TEST_F(PaperTables, RefuseWhatIsNoScene) {
-    const auto result = run("--only cuts --cuts builtin:none");
+    const auto result = measure("--only cuts --cuts builtin:none");
     EXPECT_EQ(result.status, 1);
     EXPECT_NE(result.err.find("builtin:none"), std::string::npos) << result.err;
     EXPECT_FALSE(folder.has("paper_tables.json"));

@@ -1,28 +1,21 @@
 #include <map>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "benchmarks/particle_cost.hpp"
+#include "benchmarks/prepared_scene.hpp"
+#include "benchmarks/scene_options.hpp"
 #include "benchmarks/shading_cost.hpp"
 #include "benchmarks/source_scenes.hpp"
-#include "render/process.hpp"
-#include "render/temporary_folder.hpp"
+#include "program.hpp"
 
 namespace {
 
-struct Sources : testing::Test {
-    TemporaryFolder folder;
-    TemporaryFolder streams;
-
-    Process::Result run(const std::string& arguments) {
-        std::vector<std::string> words;
-        std::istringstream text(arguments);
-        for (std::string word; text >> word;) words.push_back(word);
-        return Process(LIGHTCUTS_SOURCES_EXECUTABLE, words, folder.path(), streams.path()).wait();
-    }
+struct Sources : BenchmarkProgram {
+    Sources() : BenchmarkProgram(LIGHTCUTS_SOURCES_EXECUTABLE) {}
 };
 
 const std::string quick = "--width 16 --height 12 --runs 1 --error-points 5 ";
@@ -34,7 +27,7 @@ TEST_F(Sources, MeasuresAllParts) {
     ASSERT_EQ(result.status, 0) << result.err;
     EXPECT_EQ(result.err, "");
     std::map<std::string, std::vector<nlohmann::json>> parts;
-    for (const auto& row : nlohmann::json::parse(folder.read("sources.json"))) {
+    for (const auto& row : figures("sources.json")) {
         EXPECT_GT(row.at("microseconds"), 0.0) << row;
         EXPECT_GT(row.at("ratio"), 0.0) << row;
         EXPECT_GT(row.at("rays"), 0.0) << row;
@@ -58,14 +51,57 @@ TEST_F(Sources, MeasuresAllParts) {
 TEST_F(Sources, MeasuresPartsAlone) {
     const auto result = run(quick + "--only few --lamp-lights 4 --few builtin:omni?lights=5");
     ASSERT_EQ(result.status, 0) << result.err;
-    EXPECT_EQ(nlohmann::json::parse(folder.read("sources.json")).size(), 4u);
+    EXPECT_EQ(figures("sources.json").size(), 4u);
 }
 
-TEST_F(Sources, RefusesWhatIsNoScene) {
-    const auto result = run(quick + "--only few --lamp-lights 4 --few builtin:none");
+TEST_F(Sources, HeedWhatAScenesNameSays) {
+    const auto result = run(quick + "--only few --lamp-lights 1 --few builtin:hall?area-points=1&indirect=200");
+    ASSERT_EQ(result.status, 0) << result.err;
+    const auto rows = figures("sources.json");
+    EXPECT_NEAR(rows.at(2).at("lights").get<double>(), 72.0 + 200.0, 40.0);
+    EXPECT_LT(rows.at(3).at("relative_rmse"), 0.05);
+}
+
+TEST_F(Sources, RefusesWhatCannotBe) {
+    const std::pair<std::string, std::string> refusals[] = {
+        {"--only few --lamp-lights 4 --few builtin:none", "builtin:none"},
+        {"--only few --lamp-lights 4 --few builtin:hall?env-scale=2", "builtin:hall?env-scale=2: --env-scale needs"},
+        {"--only environment --environment builtin:hall?indirect=50", "builtin:hall?indirect=50: "},
+        {"--only nonsense", "nonsense"},
+        {"--only few --runs 2", "--runs"},
+    };
+    for (const auto& [arguments, says] : refusals) {
+        const auto result = run((arguments.find("--runs") == std::string::npos ? quick : "") + arguments);
+        EXPECT_NE(result.status, 0) << arguments;
+        EXPECT_NE(result.err.find(says), std::string::npos) << arguments << ": " << result.err;
+        EXPECT_FALSE(folder.has("sources.json")) << arguments;
+    }
+    std::filesystem::create_directory(folder / "sources.json");
+    const auto result = run(quick + "--only few --few builtin:none");
     EXPECT_EQ(result.status, 1);
-    EXPECT_NE(result.err.find("builtin:none"), std::string::npos) << result.err;
-    EXPECT_FALSE(folder.has("sources.json"));
+    EXPECT_EQ(result.err,
+              "bench-sources: sources.json: cannot be written (not a regular file); choose another place\n");
+}
+
+TEST_F(Sources, TraceTheRaysThatWereRecordedOnLeavesToo) {
+    folder.write("leaves.gltf", R"({"asset":{"version":"2.0"},"extensionsUsed":["KHR_materials_diffuse_transmission"],
+        "buffers":[{"byteLength":60,"uri":"data:application/octet-stream;base64,)" +
+                                    std::string("AACAvwAAAAAAAIC/AACAPwAAAAAAAIC/AACAPwAAAAAAAIA/AACAvwAAAAAAAIA/"
+                                                "AAACAAEAAAADAAIA") +
+                                    R"("}],
+        "bufferViews":[{"buffer":0,"byteLength":48},{"buffer":0,"byteOffset":48,"byteLength":12}],
+        "accessors":[{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"},
+        {"bufferView":1,"componentType":5123,"count":6,"type":"SCALAR"}],
+        "materials":[{"pbrMetallicRoughness":{"metallicFactor":0},
+        "extensions":{"KHR_materials_diffuse_transmission":{"diffuseTransmissionFactor":0.75}}}],
+        "meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1,"material":0}]}],
+        "extensions":{"KHR_lights_punctual":{"lights":[{"type":"point","intensity":4}]}},
+        "nodes":[{"mesh":0},{"mesh":0,"translation":[0,1,0]},
+        {"translation":[0.1,0.5,0.2],"extensions":{"KHR_lights_punctual":{"light":0}}}]})");
+    const auto cost = benchmark::measure_particles(
+        {.scene = folder / "leaves.gltf" + "?seed=3", .lights = 3000, .area_points = 1, .threads = 1, .runs = 1});
+    EXPECT_GT(cost.virtual_lights, 1000u);
+    EXPECT_EQ(cost.recorded_lights, cost.virtual_lights);
 }
 
 TEST(SourceScenes, GiveALampsFluxToAnyNumberOfLights) {
@@ -82,7 +118,8 @@ TEST(SourceScenes, GiveALampsFluxToAnyNumberOfLights) {
 }
 
 TEST(SourceScenes, KeepTheMapThatIsThere) {
-    render::Scene scene = benchmark::scene_with_lights("builtin:directional?lights=10", 1);
+    render::Options options = benchmark::scene_options("builtin:directional?lights=10");
+    render::Scene scene = benchmark::prepared_scene("sky", options);
     benchmark::surround(scene);
     scene.background.environment->picture.pixels.front() = glm::vec3(7.0f);
     benchmark::surround(scene);

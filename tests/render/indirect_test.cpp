@@ -178,6 +178,8 @@ TEST_F(IndirectLight, IsNotClampedByMethodsThatCannot) {
         for (const std::string off : {"", " --clamp off"}) {
             rendered("room.obj --size 4x3 --indirect 200 --method " + method + off + view);
             EXPECT_EQ(report("render.json").at("clamp").at("mode"), "off") << method;
+            EXPECT_EQ(report("render.json").at("options").at("clamp"), "off") << method;
+            EXPECT_EQ(report("render.json").at("options").at("clamp_ratio"), nullptr) << method;
         }
         rendered("room.obj --size 4x3 --clamp auto --method " + method + view);  // there is nothing to clamp
     }
@@ -199,6 +201,22 @@ TEST_F(IndirectLight, OfTooFewLightsIsWarnedOf) {
     EXPECT_EQ(render(scene + "--quiet").err, "");
 }
 
+TEST_F(IndirectLight, OfAMethodThatDoesNotClampIsNotComparedSilently) {
+    const std::string direct = "room.obj --size 4x3" + view, scene = direct + "--indirect 200 ";
+    ASSERT_EQ(render(scene + "--output exact.exr --method exhaustive").status, 0);
+    const auto warned = [&](const std::string& options) {
+        const auto result = render(scene + options);
+        EXPECT_EQ(result.status, 0) << result.err;
+        return result.err.find("does not clamp virtual lights") != std::string::npos;
+    };
+    EXPECT_TRUE(warned("--method power --reference exact.exr"));
+    EXPECT_FALSE(warned("--method power"));
+    EXPECT_FALSE(warned("--method power --clamp off --reference exact.exr"));
+    EXPECT_FALSE(warned("--method power --quiet --reference exact.exr"));
+    EXPECT_FALSE(warned("--reference exact.exr"));
+    EXPECT_EQ(render(direct + "--method power --reference exact.exr").err.find("clamp"), std::string::npos);
+}
+
 TEST_F(IndirectLight, RefusesWhatCannotBe) {
     folder.write("up.csv", "kind,x,y,z,dx,dy,dz,r,g,b\noriented,0,2,0,0,1,0,1,1,1\n");
     folder.write("mirror.mtl", "newmtl mirror\nKd 0 0 0\nKs 1 1 1\nillum 5\n");
@@ -218,6 +236,7 @@ TEST_F(IndirectLight, RefusesWhatCannotBe) {
         {"room.obj --indirect 100 --clamp auto --method power", 2, "--method power does not clamp"},
         {"room.obj --indirect 100 --clamp 0.5 --method ward", 2, "--method ward does not clamp"},
         {"room.obj --indirect 100 --clamp-ratio 0.1 --method tree-sampling", 2, "--method tree-sampling does not"},
+        {"builtin:colonnade --clamp auto --method power", 2, "--method power does not clamp"},
     };
     const auto before = files();
     for (const Refusal& refusal : refusals) {

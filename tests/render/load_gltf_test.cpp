@@ -248,6 +248,20 @@ TEST_F(GltfFile, DiffuseTransmission) {
                 HasSubstr("'leaf': the diffuse transmission colour"));
     EXPECT_THAT(refused(R"("diffuseTransmissionFactor":1,"diffuseTransmissionTexture":{"index":7})"),
                 HasSubstr("texture 7"));
+    const std::pair<const char*, const char*> malformed[] = {
+        {R"("diffuseTransmissionFactor":"all")", "diffuseTransmissionFactor is not a number"},
+        {R"("diffuseTransmissionColorFactor":[1,1])", "diffuseTransmissionColorFactor is not an array of three"},
+        {R"("diffuseTransmissionColorFactor":0.5)", "diffuseTransmissionColorFactor is not an array of three"},
+        {R"("diffuseTransmissionColorFactor":[1,"1",1])", "diffuseTransmissionColorFactor is not an array of three"},
+        {R"("diffuseTransmissionTexture":{"texCoord":0})", "diffuseTransmissionTexture: its index"},
+        {R"("diffuseTransmissionTexture":{"index":-1})", "diffuseTransmissionTexture: its index"},
+        {R"("diffuseTransmissionColorTexture":{"index":0.5})", "diffuseTransmissionColorTexture: its index"},
+        {R"("diffuseTransmissionTexture":{"index":0,"texCoord":"0"})", "diffuseTransmissionTexture: its texCoord"},
+        {R"("diffuseTransmissionTexture":0)", "diffuseTransmissionTexture: its index"},
+    };
+    for (const auto& [members, says] : malformed) {
+        EXPECT_THAT(refused(members), HasSubstr(std::string("material 'leaf': ") + says)) << members;
+    }
 }
 
 TEST_F(GltfFile, TextureTransforms) {
