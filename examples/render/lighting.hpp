@@ -14,6 +14,8 @@ struct Lighting {
     std::optional<Picture> environment;  ///< latitude-longitude map of radiance around it
     std::optional<lightcuts::SunPosition> sun;
     std::uint32_t indirect = 0;  ///< about so many virtual lights
+    /// Most radiance that one of these adds at a point; empty: a share of the point's total, see `--clamp`.
+    std::optional<float> clamp;
 };
 
 }  // namespace render

@@ -132,6 +132,9 @@ void add_surroundings(Scene& scene, Options& options) {
         own.environment.reset();
     }
     if (!options.is_given("--indirect")) options.indirect = own.indirect;
+    if (own.clamp && !options.is_given("--clamp") && !options.is_given("--clamp-ratio")) {
+        options.clamp = {.radiance = *own.clamp};
+    }
 
     if (!options.env.empty()) {
         add_environment(scene, read_map(options.env), options.env.string(), options);

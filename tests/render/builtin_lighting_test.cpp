@@ -92,6 +92,8 @@ TEST(Colonnade, StandsInSunAndSkyAndAsksForIndirectLight) {
     EXPECT_EQ(s.sun_lights, 64u);
     EXPECT_EQ(s.sky_lights, 5000u);
     EXPECT_EQ(options.indirect, 20'000u);
+    EXPECT_EQ(options.clamp.radiance, 0.1f);
+    EXPECT_FALSE(options.clamp.is_automatic());
     const lightcuts::SunSky daylight({static_cast<double>(options.sun_sky->elevation),
                                       static_cast<double>(options.sun_sky->azimuth),
                                       static_cast<double>(options.turbidity)});
@@ -108,8 +110,9 @@ TEST(Colonnade, IsLitAsTheUserSays) {
     options.turbidity = 7.0f;
     options.sky_lights = 100;
     options.indirect = 0;
-    options.given = {"--turbidity", "--sky-lights", "--indirect"};
+    options.given = {"--turbidity", "--sky-lights", "--indirect", "--clamp"};
     const Scene hazy = lit("colonnade", options);
+    EXPECT_TRUE(options.clamp.is_automatic());
     EXPECT_EQ(hazy.sky_lights, 100u);
     EXPECT_EQ(options.turbidity, 7.0f);
     EXPECT_EQ(options.indirect, 0u);
