@@ -92,7 +92,7 @@ TEST(Colonnade, StandsInSunAndSkyAndAsksForIndirectLight) {
     EXPECT_EQ(s.sun_lights, 64u);
     EXPECT_EQ(s.sky_lights, 5000u);
     EXPECT_EQ(options.indirect, 20'000u);
-    EXPECT_EQ(options.clamp.radiance, 0.1f);
+    EXPECT_EQ(options.clamp.radiance, 0.5f);
     EXPECT_FALSE(options.clamp.is_automatic());
     const lightcuts::SunSky daylight({static_cast<double>(options.sun_sky->elevation),
                                       static_cast<double>(options.sun_sky->azimuth),
