@@ -33,7 +33,7 @@ struct Settings {
                                   "builtin:tableau",
                                   "builtin:tableau?indirect=10000",
                                   "builtin:colonnade?indirect=0",
-                                  "builtin:colonnade?indirect=500000",
+                                  "builtin:colonnade?indirect=500000&clamp=auto",
                                   "builtin:screens?indirect=25000"};
     std::vector<std::size_t> hall_points{1, 2, 4, 8, 16, 64, 256, 1024, 4096};
     std::vector<std::size_t> map_lights{100, 200, 300, 1000, 3000, 10'000, 30'000, 100'000};
