@@ -11,6 +11,7 @@
 #include <lightcuts/cut/lightcut.hpp>
 #include <lightcuts/estimate/exhaustive.hpp>
 #include <lightcuts/light/clamped.hpp>
+#include "support/cut_results.hpp"
 #include "support/scene.hpp"
 #include "support/threads.hpp"
 
@@ -161,19 +162,6 @@ TEST(Clamping, TamesLightsAtTheReceiver) {
         EXPECT_EQ(shade(b, receivers[i], AlwaysVisible{}, {.max_cut = 1}).error_bound.x, infinity);
         EXPECT_LE(shade(b, receivers[i], AlwaysVisible{}, {.max_cut = 1, .clamp = {.radiance = 1e-3f}}).error_bound.x,
                   1.00001f * 1e-3f * 1000.0f);
-    }
-}
-
-template <class A, class B>
-void expect_same(const A& a, const B& b) {
-    ASSERT_EQ(a.size(), b.size());
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        EXPECT_EQ(a[i].radiance, b[i].radiance) << i;
-        EXPECT_EQ(a[i].error_bound, b[i].error_bound) << i;
-        EXPECT_EQ(a[i].clamp_threshold, b[i].clamp_threshold) << i;
-        EXPECT_EQ(a[i].cut_size, b[i].cut_size) << i;
-        EXPECT_EQ(a[i].queries, b[i].queries) << i;
-        EXPECT_EQ(a[i].stop, b[i].stop) << i;
     }
 }
 

@@ -219,29 +219,6 @@ TEST(VirtualLights, StartAsEveryKindOfLightEmits) {
     expect_first_bounces_where_light_falls<Soft>({{V(0.5f, 0.5f, 0.5f), V(1.0f), {1.0f, 0.5f, 1.0f}}});
 }
 
-TEST(WeightedChoice, IsTheFirstWhoseSumExceedsTheShare) {
-    const std::vector<std::vector<double>> cases = {{1.0},
-                                                    {0.0, 2.0, 0.0, 0.0},
-                                                    {1e-12, 1.0, 1e-12, 0.0, 1e12, 3.0, 0.0},
-                                                    std::vector<double>(1000, 0.1),
-                                                    {5.0, 1e-300, 1e-300, 1e-300, 0.0}};
-    for (const std::vector<double>& weights : cases) {
-        detail::WeightedChoice choice;
-        for (const double weight : weights) choice.add(weight);
-        choice.prepare();
-        for (std::uint32_t i = 0; i < 4096; ++i) {
-            const double u = i == 0 ? 0.0 : i == 1 ? 1.0 - 0x1p-53 : IndependentNumbers{}(i, 0);
-            const std::size_t chosen = choice(u);
-            ASSERT_LT(chosen, weights.size());
-            EXPECT_GT(weights[chosen], 0.0);
-            double before = 0.0;
-            for (std::size_t k = 0; k < chosen; ++k) before += weights[k];
-            EXPECT_LE(before, u * choice.total());
-            EXPECT_TRUE(before + weights[chosen] > u * choice.total() || i == 1);
-        }
-    }
-}
-
 TEST(VirtualLights, TravelOverMirrorsWithoutStayingThere) {
     const Chamber room{V(0.4f, 0.4f, 0.4f), true};
     const std::vector<OmniLight<>> omni{{V(1.0f, 0.5f, 1.0f), V(1.0f), {}}};

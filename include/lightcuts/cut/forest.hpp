@@ -52,6 +52,13 @@ public:
         return count;
     }
 
+    /// Number of lit lights: the largest cut.
+    std::size_t light_count() const {
+        std::size_t count = 0;
+        for_each([&](std::uint32_t, const auto& tree) { count += tree.topology().item_count(); });
+        return count;
+    }
+
 private:
     template <std::size_t K, class F>
     decltype(auto) visit_from([[maybe_unused]] std::uint32_t kind, F& f) const {
@@ -84,6 +91,12 @@ template <class Oracle, class R, class Forest>
 inline constexpr bool answers = false;
 template <class Oracle, class R, Light... Ls>
 inline constexpr bool answers<Oracle, R, LightForest<Ls...>> = (VisibilityOracle<Oracle, R, Ls> && ...);
+
+/// True if `Oracle` bounds what is visible of some kind of cluster.
+template <class Oracle, class R, class Forest>
+inline constexpr bool bounds_clusters = false;
+template <class Oracle, class R, Light... Ls>
+inline constexpr bool bounds_clusters<Oracle, R, LightForest<Ls...>> = (BoundedOracle<Oracle, R, Ls> || ...);
 
 }  // namespace detail
 

@@ -268,14 +268,9 @@ private:
     /// True if the cut starts with all lights. Not if the oracle bounds clusters: it may know of many at once that they
     /// are hidden.
     bool has_few_lights() const {
-        std::size_t lights = 0;
-        bool bounds = false;
-        forest_.for_each([&](std::uint32_t, const auto& tree) {
-            using L = typename std::remove_cvref_t<decltype(tree)>::light_type;
-            lights += tree.topology().item_count();
-            bounds = bounds || BoundedOracle<Oracle, R, L>;
-        });
-        return !bounds && lights <= options_.few_lights && (options_.max_cut == 0 || lights <= options_.max_cut);
+        if constexpr (detail::bounds_clusters<Oracle, R, Forest>) return false;
+        const std::size_t lights = forest_.light_count();
+        return lights <= options_.few_lights && (options_.max_cut == 0 || lights <= options_.max_cut);
     }
 
     /// What is known of a cluster's terms without looking at it.

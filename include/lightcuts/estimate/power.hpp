@@ -1,8 +1,7 @@
 #pragma once
 
-#include <algorithm>
-
 #include "../core/random.hpp"
+#include "../core/weighted_choice.hpp"
 #include "estimate.hpp"
 
 namespace lightcuts {
@@ -18,34 +17,26 @@ public:
 
     template <TreeOrForest Lights>
     explicit PowerDistribution(const Lights& lights) {
-        double sum = 0.0;
         as_forest(lights).for_each([&](std::uint32_t, const auto& tree) {
-            first_.push_back(static_cast<std::uint32_t>(cumulative_.size()));
-            for (const auto& light : tree.lights()) {
-                sum += channel_sum(detail::intensity_of(light));
-                cumulative_.push_back(sum);
-            }
+            first_.push_back(static_cast<std::uint32_t>(choice_.size()));
+            for (const auto& light : tree.lights()) choice_.add(channel_sum(detail::intensity_of(light)));
         });
+        if (!empty()) choice_.prepare();
     }
 
     /// True if no light is lit.
-    bool empty() const { return cumulative_.empty() || !(cumulative_.back() > 0.0); }
+    bool empty() const { return !(choice_.total() > 0.0); }
 
     /// The light at `u` in [0, 1) of the total. pre: !empty().
     Choice choose(double u) const {
-        auto found = std::upper_bound(cumulative_.begin(), cumulative_.end(), u * cumulative_.back());
-        if (found == cumulative_.end()) {  // rounding: the last lit light
-            found = std::lower_bound(cumulative_.begin(), cumulative_.end(), cumulative_.back());
-        }
-        const auto at = static_cast<std::uint32_t>(found - cumulative_.begin());
+        const auto at = static_cast<std::uint32_t>(choice_(u));
         std::uint32_t kind = 0;
         while (kind + 1 < first_.size() && first_[kind + 1] <= at) ++kind;
-        const double before = at > 0 ? cumulative_[at - 1] : 0.0;
-        return {kind, at - first_[kind], (cumulative_[at] - before) / cumulative_.back()};
+        return {kind, at - first_[kind], choice_.chance(at)};
     }
 
 private:
-    std::vector<double> cumulative_;
+    detail::WeightedChoice choice_;
     std::vector<std::uint32_t> first_;  ///< of each kind
 };
 
