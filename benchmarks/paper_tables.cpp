@@ -3,6 +3,7 @@
 /// several representatives [Mikšík 2007]. One thread. Prints tables and writes paper_tables.json.
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <string>
 #include <utility>
@@ -131,7 +132,12 @@ json measure_scaling_of(const Settings& set, const std::string& scene, const std
                         {"ward_over_lightcuts", ward_ratios.back()}});
     }
     const double naive = crossing(lights, naive_ratios), ward = crossing(lights, ward_ratios);
-    std::printf("lightcuts are faster from so many lights on: %.0f than naive, %.0f than Ward\n", naive, ward);
+    const auto from = [](double crossed, const std::vector<double>& ratios) {
+        if (ratios.front() > 1.0) return std::string("the fewest");
+        return crossed > 0.0 ? std::to_string(std::lround(crossed)) : std::string("none");
+    };
+    std::printf("lightcuts are faster from so many lights on: %s than naive, %s than Ward\n",
+                from(naive, naive_ratios).c_str(), from(ward, ward_ratios).c_str());
     return {{"scene", scene},
             {"points", points},
             {"rows", rows},
