@@ -14,7 +14,9 @@
 namespace lightcuts {
 
 /// Splitter of `divide`: sorts a set into up to 16 bins along each axis of position (and direction) and takes the
-/// boundary whose two sides have the smallest sum of the papers' cluster metric [Walter et al. 2005, Section 4].
+/// boundary whose two sides have the smallest sum of intensity x size. The size of items without an axis is the papers'
+/// [Walter et al. 2005, Section 4], the squared diagonal of their box; with one it is the diagonal plus a share of that
+/// of the axes' box, which leads to smaller cuts than the papers' sum of squares.
 struct Binned {
     /// A set of more than twice as many items chooses its boundary from a sample of so many, or of an eighth of them
     /// if that is more. 0: always from all; slower by a sixth, and hardly a better tree.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
@@ -69,6 +70,8 @@ std::unique_ptr<record_of<Item>[]> make_records(std::span<const Item> items) {
 template <class Record>
 struct Bounds {
     static constexpr std::size_t lanes = Record::lanes;
+    /// What a difference between unit axes counts for, in diagonals of all items' box.
+    static constexpr float axis_share = 0.05f;
 
     alignas(16) float lo[lanes];
     alignas(16) float hi[lanes];
@@ -91,14 +94,15 @@ struct Bounds {
     void add(const Record& r) { extend(r.lane, r.lane); }
     void add(const Bounds& b) { extend(b.lo, b.hi); }
 
-    /// The papers' metric without its intensity, alpha^2 + c^2 (1 - cos beta)^2 with c = 1.
+    /// What a set's intensity is multiplied by to judge it, see Binned. Positions alone: the squared diagonal. With
+    /// axes it is linear, since cosines and distances, and so bounds, vary in proportion to both diagonals; squares, as
+    /// in the papers, hardly tell the axes of small sets apart.
     float size() const {
-        float size = extent2(0) + extent2(1) + extent2(2);
         if constexpr (lanes == 8) {
-            const float s = spread();
-            size += s * s;
+            return std::sqrt(diagonal2()) + axis_share * std::sqrt(axis_diagonal2());
+        } else {
+            return diagonal2();
         }
-        return size;
     }
 
     /// By how much, to first order and up to a factor, the size shrinks when the box does along each of Record::axes.
@@ -106,8 +110,9 @@ struct Bounds {
         std::array<float, Record::axes.size()> gains;
         for (std::size_t i = 0; i < gains.size(); ++i) gains[i] = extent2(Record::axes[i]);
         if constexpr (lanes == 8) {
-            const float factor = 2 * spread() / 16;
-            for (std::size_t i = 3; i < gains.size(); ++i) gains[i] *= factor;
+            const float of_position = 1 / std::max(std::sqrt(diagonal2()), std::numeric_limits<float>::min());
+            const float of_axis = axis_share / std::max(std::sqrt(axis_diagonal2()), std::numeric_limits<float>::min());
+            for (std::size_t i = 0; i < gains.size(); ++i) gains[i] *= i < 3 ? of_position : of_axis;
         }
         return gains;
     }
@@ -115,8 +120,8 @@ struct Bounds {
 private:
     float extent2(std::size_t lane) const { return (hi[lane] - lo[lane]) * (hi[lane] - lo[lane]); }
 
-    /// 1 - cos beta, from the box of the axes: that of a cone of half-angle beta has a diagonal of about 8^(1/2) beta.
-    float spread() const { return (extent2(4) + extent2(5) + extent2(6)) / 16; }
+    float diagonal2() const { return extent2(0) + extent2(1) + extent2(2); }
+    float axis_diagonal2() const requires(lanes == 8) { return extent2(4) + extent2(5) + extent2(6); }
 
     /// Builders spend most of their time here. Not inlined, and through arrays that alias nothing: so compilers use
     /// vector instructions (GCC 12 does not inside its callers' loops).
