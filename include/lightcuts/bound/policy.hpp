@@ -131,24 +131,20 @@ material_spectrum<M> material_bound(const M& material, const LightCluster<L>& cl
     }
 }
 
-/// Bounds of up to `lane_count` clusters of one kind.
+/// Adds the bounds of up to `lane_count` clusters of one kind to `units`.
 template <class M, Light L>
-void block_bound(const M& material, const LightCluster<L>* const* clusters, int count, const glm::vec3& point,
-                 ClusterBlock& block, material_spectrum<M>* units) {
+void add_block_bound(const M& material, const LightCluster<L>* const* clusters, int count, const glm::vec3& point,
+                     ClusterBlock& block, material_spectrum<M>* units) {
     require_bound<M>();
     using S = material_spectrum<M>;
     if constexpr (CompositeMaterial<M>) {
-        for (int i = 0; i < count; ++i) units[i] = {};
-        material.for_each_component([&](const auto& part) {
-            LaneSpectra<S> bounds;
-            block_bound(part, clusters, count, point, block, bounds.data());
-            for (int i = 0; i < count; ++i) units[i] = units[i] + bounds[static_cast<std::size_t>(i)];
-        });
+        material.for_each_component(
+            [&](const auto& part) { add_block_bound(part, clusters, count, point, block, units); });
     } else if constexpr (CosineLobeMaterial<M>) {
         alignas(32) Lanes bound;
         const auto lobe = material.cosine_lobe();
         lane_cosine_lobe(lobe.normal, clusters, count, point, block, bound);
-        for (int i = 0; i < count; ++i) units[i] = scale_bound(S(lobe.scale), bound[i]);
+        for (int i = 0; i < count; ++i) units[i] = units[i] + scale_bound(S(lobe.scale), bound[i]);
     } else if constexpr (BoundedMaterial<M>) {
         alignas(32) Lanes geometric;
         lane_geometric(clusters, count, point, block, geometric);
@@ -156,15 +152,14 @@ void block_bound(const M& material, const LightCluster<L>* const* clusters, int 
             LaneSpectra<S> reflected;
             material.quick_upper_bounds(block, reflected);
             for (int i = 0; i < count; ++i) {
-                const S& r = reflected[static_cast<std::size_t>(i)];
-                units[i] = geometric[i] > 0.0f ? scale_bound(r, geometric[i]) : S{};
+                if (!(geometric[i] > 0.0f)) continue;
+                units[i] = units[i] + scale_bound(reflected[static_cast<std::size_t>(i)], geometric[i]);
             }
         } else {
             for (int i = 0; i < count; ++i) {
-                units[i] = {};
                 if (!(geometric[i] > 0.0f)) continue;
                 const OffsetBox box = view_of(*clusters[i], point).box;
-                units[i] = scale_bound(S(material.upper_bound(box)), geometric[i]);
+                units[i] = units[i] + scale_bound(S(material.upper_bound(box)), geometric[i]);
             }
         }
     }
@@ -175,7 +170,8 @@ template <class M, Light L>
 void block_bound(const M& material, const LightCluster<L>* const* clusters, int count, const glm::vec3& point,
                  material_spectrum<M>* units) {
     ClusterBlock block(clusters, count, point);
-    block_bound(material, clusters, count, point, block, units);
+    for (int i = 0; i < count; ++i) units[i] = {};
+    add_block_bound(material, clusters, count, point, block, units);
 }
 
 /// As `material_bound`, but both cosines of a diffuse surface and of diffuse emitters are bounded together also where

@@ -196,16 +196,18 @@ public:
         if constexpr (clamps) {
             if (has_moved()) clamp_anew(visit, 1e-2);
         }
-        // Differences of a sum that was once much larger are noise.
+        // Differences of a sum that was once much larger are noise. Within a round it is largest at the end.
         constexpr double cancellation = 1e6;
         bool is_noise = false;
         for (std::size_t c = 0; c < totals_.total.size(); ++c) {
-            is_noise = is_noise || !(totals_.largest[c] <= cancellation * totals_.total[c]);
+            const double total = totals_.total[c];
+            totals_.largest[c] = total > totals_.largest[c] ? total : totals_.largest[c];
+            is_noise = is_noise || !(totals_.largest[c] <= cancellation * total);
         }
         if (is_noise) {
             totals_.total = {};
-            totals_.largest = {};
             visit([this](const node& n) { add(n, 1.0); });
+            totals_.largest = totals_.total;
         }
         weigh();
     }
@@ -446,8 +448,6 @@ private:
                 estimate = estimate > most ? most : estimate;
             }
             total += sign * estimate;
-            double& largest = totals_.largest[static_cast<std::size_t>(c)];
-            largest = total > largest ? total : largest;
         }
     }
 

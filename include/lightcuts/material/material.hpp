@@ -104,7 +104,7 @@ void evaluate_lanes(const M& m, const LaneVectors& to_lights, int count, LaneSpe
         m.for_each_component([&](const auto& part) {
             LaneSpectra<material_spectrum<M>> terms;
             evaluate_lanes(part, to_lights, count, terms);
-            for (std::size_t i = 0; i < values.size(); ++i) values[i] = values[i] + terms[i];
+            for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) values[i] = values[i] + terms[i];
         });
     } else {
         for (int i = 0; i < count; ++i) values[static_cast<std::size_t>(i)] = m.evaluate(to_lights.at(i));
