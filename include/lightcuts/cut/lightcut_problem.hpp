@@ -129,13 +129,13 @@ public:
                 ++begin;
                 continue;
             }
-            // Step 1: collect clusters of one kind.
+            // Step 1: collect clusters of one kind, also from behind others: a round has few of each.
             std::array<RefinementCandidate<node>*, lane_count> members;
             std::size_t count = 0;
             const std::uint8_t kind = candidates[begin].node->kind;
-            for (; begin < candidates.size() && count < members.size() && candidates[begin].node->kind == kind;
-                 ++begin) {
-                if (!candidates[begin].node->bounded) members[count++] = &candidates[begin];
+            for (std::size_t i = begin; i < candidates.size() && count < members.size(); ++i) {
+                const node& n = *candidates[i].node;
+                if (!n.bounded && n.kind == kind) members[count++] = &candidates[i];
             }
             // Step 2: bound them side by side.
             forest_.visit(kind, [&](const auto& tree) { bound_nodes(tree, std::span(members).first(count)); });
