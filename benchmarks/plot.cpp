@@ -90,20 +90,47 @@ std::string axes(const Plot& plot, const Axis& x, const Axis& y) {
     return svg;
 }
 
+/// Where labels may stand that hide no other one.
+class LabelSpace {
+public:
+    /// Takes the space of `text` above to the right of a point, or below to the left; false if some of it is taken.
+    bool take(double x, double y, bool to_right, const std::string& text) {
+        const double wide = 6.2 * static_cast<double>(text.size());
+        const Area area = to_right ? Area{x + 5, x + 5 + wide, y - 14, y - 5}
+                                   : Area{x - 5 - wide, x - 5, y + 3, y + 12};
+        for (const Area& a : taken_) {
+            if (a.x0 < area.x1 && area.x0 < a.x1 && a.y0 < area.y1 && area.y0 < a.y1) return false;
+        }
+        taken_.push_back(area);
+        return true;
+    }
+
+private:
+    struct Area {
+        double x0, x1, y0, y1;
+    };
+    std::vector<Area> taken_;
+};
+
 /// `right_labels`: they stand above to the right of their points, else below to the left; where curves run side by
-/// side, each is readable if its neighbour's are on the other side.
+/// side, each is readable if its neighbour's are on the other side. Where there is no room on either, the pointer over
+/// the point tells.
 std::string curve(const PlotCurve& drawn, const char* color, bool right_labels, double least_y, const Axis& x,
-                  const Axis& y) {
-    const std::string style = formatted("font-size=\"10\" fill=\"%s\"%s", color,
-                                        right_labels ? "" : " text-anchor=\"end\"");
+                  const Axis& y, LabelSpace& space) {
     std::string path, marks;
     for (const PlotPoint& p : drawn.points) {
         if (!is_drawn(p)) continue;
         const double px = x.pixel(p.x), py = y.pixel(std::max(p.y, least_y));
         path += formatted("%s%.1f,%.1f", path.empty() ? "" : " ", px, py);
-        marks += formatted("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3\" fill=\"%s\"/>\n", px, py, color);
-        marks += right_labels ? text_at(px + 5, py - 5, style.c_str(), p.label)
-                              : text_at(px - 5, py + 12, style.c_str(), p.label);
+        marks += formatted("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3\" fill=\"%s\">", px, py, color) + "<title>" +
+                 escaped(drawn.name + ": " + p.label) + "</title></circle>\n";
+        for (const bool to_right : {right_labels, !right_labels}) {
+            if (!space.take(px, py, to_right, p.label)) continue;
+            const std::string style = formatted("font-size=\"10\" fill=\"%s\"%s", color,
+                                                to_right ? "" : " text-anchor=\"end\"");
+            marks += text_at(to_right ? px + 5 : px - 5, to_right ? py - 5 : py + 12, style.c_str(), p.label);
+            break;
+        }
     }
     return "<polyline fill=\"none\" stroke-width=\"1.6\" stroke=\"" + std::string(color) + "\" points=\"" + path +
            "\"/>\n" + marks;
@@ -141,9 +168,10 @@ std::string to_svg(const Plot& plot) {
         svg += line(at, top, at, bottom, "stroke=\"#222222\" stroke-dasharray=\"5 4\"");
         svg += legend_entry(plot.curves.size(), "#222222", "stroke-dasharray=\"5 4\"", plot.mark->name);
     }
+    LabelSpace labels;
     for (std::size_t i = 0; i < plot.curves.size(); ++i) {
         const char* color = colors[i % colors.size()];
-        svg += curve(plot.curves[i], color, i % 2 == 0, plot.least_y, x, y);
+        svg += curve(plot.curves[i], color, i % 2 == 0, plot.least_y, x, y, labels);
         svg += legend_entry(i, color, "", plot.curves[i].name);
     }
     return svg + "</svg>\n";

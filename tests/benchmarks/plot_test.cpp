@@ -1,4 +1,5 @@
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <regex>
 #include <string>
@@ -67,6 +68,21 @@ TEST(Plot, ShrinksALongTitle) {
     EXPECT_GT(title_size(100), 8.0);
     EXPECT_LT(title_size(100), 12.0);
     EXPECT_EQ(title_size(0), 14.0);
+}
+
+TEST(Plot, LeavesOutLabelsThatWouldHideOthers) {
+    const auto labels = [](std::size_t curves, double apart) {
+        Plot many = plot({});
+        many.curves.clear();
+        double x = 1.0;
+        for (std::size_t i = 0; i < curves; ++i, x *= apart) many.curves.push_back({"c", {{x, 0.1, "label"}}});
+        const std::string svg = to_svg(many);
+        static const std::regex label(">label</text>");
+        return std::distance(std::sregex_iterator(svg.begin(), svg.end(), label), std::sregex_iterator());
+    };
+    EXPECT_EQ(labels(1, 1.0), 1);
+    EXPECT_EQ(labels(5, 1.0), 2);  // on either side
+    EXPECT_EQ(labels(5, 10.0), 5);
 }
 
 TEST(Plot, EscapesItsTexts) {
