@@ -239,17 +239,17 @@ public:
     /// What a cluster may be off by, as a share of the total. Clamping decides whether it is refined. In which order is
     /// decided without: by shares, clusters of most lights would come first, and a limited cut might miss the nearest.
     double priority(const node& n) const {
-        double largest = 0.0, clamped = 0.0;
+        double largest = 0.0;
         for (int c = 0; c < channels_of<S>; ++c) {
             const double p = static_cast<double>(channel(n.bound, c)) * totals_.weight[static_cast<std::size_t>(c)];
             largest = p > largest ? p : largest;
-            if constexpr (clamps) {
-                const double most = static_cast<double>(n.lights) * totals_.clamp.share[static_cast<std::size_t>(c)];
-                const double q = p > most ? most : p;
-                clamped = q > clamped ? q : clamped;
+        }
+        if constexpr (clamps) {
+            if (largest > threshold_) {
+                const double clamped = clamped_priority(n);
+                return clamped > threshold_ ? largest : clamped;
             }
         }
-        if constexpr (clamps) return clamped > threshold_ ? largest : clamped;
         return largest;
     }
 
@@ -266,6 +266,17 @@ public:
 
 private:
     static constexpr double darkest = 1e150;  ///< weight of bounds where no light has arrived
+
+    double clamped_priority(const node& n) const requires clamps {
+        double largest = 0.0;
+        for (int c = 0; c < channels_of<S>; ++c) {
+            const double p = static_cast<double>(channel(n.bound, c)) * totals_.weight[static_cast<std::size_t>(c)];
+            const double most = static_cast<double>(n.lights) * totals_.clamp.share[static_cast<std::size_t>(c)];
+            const double clamped = p > most ? most : p;
+            largest = clamped > largest ? clamped : largest;
+        }
+        return largest;
+    }
 
     /// True if the cut starts with all lights. Not if the oracle bounds clusters: it may know of many at once that they
     /// are hidden.
