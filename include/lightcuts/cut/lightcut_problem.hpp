@@ -490,7 +490,7 @@ private:
         bool moved = false;
         for (std::size_t c = 0; c < totals_.total.size(); ++c) {
             const double now = totals_.total[c], then = totals_.clamp.total[c];
-            moved = moved || now > 1.1 * then || now < 0.9 * then;
+            moved = moved || now > 1.25 * then || now < 0.8 * then;
         }
         return moved;
     }
