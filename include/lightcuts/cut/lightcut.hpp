@@ -20,7 +20,7 @@ struct CutResult {
     /// Sum of the error bounds of the cut's clusters, absolute radiance; infinite if a cluster that may touch the
     /// receiver is left on the cut. With automatic clamping it includes what errors do to the threshold.
     S error_bound{};
-    /// Radiance that no clamped light exceeded; infinite if there was no limit.
+    /// Radiance that no clamped light exceeded; infinite if there was no limit, as in automatic clamping of one or two.
     S clamp_threshold = make_spectrum<S>([](int) { return std::numeric_limits<float>::infinity(); });
     std::uint32_t cut_size = 0;  ///< clusters on the cut, those that cannot contribute too
     std::uint32_t queries = 0;   ///< shadow rays asked of the oracle
@@ -77,15 +77,38 @@ ClampedTotal<S> clamped_total(const Refinement<CutNode<S, true>>& refinement, co
     const ClampOptions& clamp = totals.clamp.options;
     // Converged refinements have found it.
     if (!clamp.is_automatic() || refinement.stop_reason() == StopReason::converged) {
-        return {totals.total, totals.clamp.threshold};
+        return {totals.total, totals.clamp.threshold, totals.clamp.ratio};
     }
     return clamped_total<S>(clamp, {}, totals.total, 1e-6, [&](auto&& f) {
         refinement.for_each([&](const auto& n) { f(n.estimate, static_cast<double>(n.lights)); });
     });
 }
 
-template <Spectrum S>
-CutResult<S> cut_result(const Refinement<CutNode<S>>& refinement, const CutTotals<S>& totals) {
+/// How many clamped lights arrive: those that were looked at for certain, and others where there are bounds.
+template <class Forest, Spectrum S>
+ArrivingLights<S> arriving_lights(const Forest& forest, const Refinement<CutNode<S, true>>& refinement) {
+    ArrivingLights<S> arriving;
+    refinement.for_each([&](const CutNode<S, true>& n) {
+        if (!(n.lights < std::numeric_limits<float>::infinity())) return;
+        const bool single = is_black(n.bound);
+        // A cluster has colours that its representative may lack.
+        const S contribution = single || is_black(n.estimate)
+                                   ? n.estimate
+                                   : forest.visit(n.kind, [&](const auto& tree) {
+                                         return finite_product(n.terms, tree.clusters()[n.representative].intensity);
+                                     });
+        for (int c = 0; c < channels_of<S>; ++c) {
+            const auto i = static_cast<std::size_t>(c);
+            const double sure = channel(contribution, c) > 0.0f ? 1.0 : 0.0;
+            arriving.least[i] += sure;
+            arriving.most[i] += channel(n.bound, c) > 0.0f ? static_cast<double>(n.lights) : sure;
+        }
+    });
+    return arriving;
+}
+
+template <class Forest, Spectrum S>
+CutResult<S> cut_result(const Forest&, const Refinement<CutNode<S>>& refinement, const CutTotals<S>& totals) {
     typename CutTotals<S>::Sums radiance{}, bound{};
     refinement.for_each([&](const CutNode<S>& n) {
         for (int c = 0; c < channels_of<S>; ++c) {
@@ -96,8 +119,9 @@ CutResult<S> cut_result(const Refinement<CutNode<S>>& refinement, const CutTotal
     return cut_result_of(refinement, totals.queries, radiance, bound);
 }
 
-template <Spectrum S>
-CutResult<S> cut_result(const Refinement<CutNode<S, true>>& refinement, const CutTotals<S, true>& totals) {
+template <class Forest, Spectrum S>
+CutResult<S> cut_result(const Forest& forest, const Refinement<CutNode<S, true>>& refinement,
+                        const CutTotals<S, true>& totals) {
     const ClampOptions& clamp = totals.clamp.options;
     const ClampedTotal<S> clamped = clamped_total(refinement, totals);
     ChannelSums<S> radiance{}, bound{};
@@ -111,7 +135,7 @@ CutResult<S> cut_result(const Refinement<CutNode<S, true>>& refinement, const Cu
         }
     });
     if (clamp.is_automatic()) {
-        bound = clamped_error<S>(clamp, clamped, [&](auto&& f) {
+        bound = clamped_error<S>(clamp, clamped, arriving_lights(forest, refinement), [&](auto&& f) {
             refinement.for_each([&](const auto& n) { f(n.estimate, n.bound, static_cast<double>(n.lights)); });
         });
     }
@@ -161,7 +185,7 @@ public:
     }
 
     /// The estimate from the cut as it is.
-    CutResult<S> result() const { return detail::cut_result(refinement_, totals_); }
+    CutResult<S> result() const { return detail::cut_result(forest_, refinement_, totals_); }
 
     /// Calls `f(node)` for each CutNode of the cut, in no particular order.
     template <class F>
@@ -217,7 +241,7 @@ void shade_one_by_one(const Forest& forest, std::span<const Receiver<M>> receive
         LightcutProblem<Forest, Receiver<M>, Oracle, Policy> problem(forest, receivers[i], oracle, policy, options,
                                                                      slot.totals, scratch.queries);
         slot.refinement.run(problem, refinement);
-        results[i] = cut_result(slot.refinement, slot.totals);
+        results[i] = cut_result(forest, slot.refinement, slot.totals);
     }
 }
 
@@ -258,7 +282,7 @@ void shade_in_lock_step(const Forest& forest, std::span<const Receiver<M>> recei
                 problem.request(slot.refinement.fresh());
                 any = true;
             } else {
-                results[i] = cut_result(slot.refinement, slot.totals);
+                results[i] = cut_result(forest, slot.refinement, slot.totals);
             }
         }
     }

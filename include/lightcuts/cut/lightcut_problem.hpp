@@ -47,7 +47,9 @@ struct CutClamp {
     ClampOptions options;
     detail::ChannelSums<S> threshold{};  ///< radiance: the most that a light adds
     detail::ChannelSums<S> share{};      ///< the most that a light's error adds to a priority
+    detail::ChannelSums<S> least{};      ///< least shares since the last mark
     detail::ChannelSums<S> total{};      ///< of which the threshold was made
+    detail::ChannelSums<S> ratio{};      ///< by which it was; infinite while no light has arrived
 };
 
 /// Radiance sums of one receiver's cut, in double.
@@ -94,6 +96,7 @@ public:
         if constexpr (clamps) {
             totals_.clamp.options = options_.clamp;
             totals_.clamp.threshold.fill(static_cast<double>(options_.clamp.radiance));
+            totals_.clamp.ratio.fill(std::numeric_limits<double>::infinity());
             set_shares();
         }
         const bool few = has_few_lights();
@@ -210,26 +213,35 @@ public:
         weigh();
     }
 
-    /// Finds the final total under its own threshold; true if the running total was so much larger that clusters may
-    /// have been left too coarse.
+    /// Finds the final total under its own threshold; true if the running total was so much larger, or lights thought
+    /// to arrive so many more, that clusters may have been left too coarse.
     template <class Visit>
     bool revise(const Visit& visit) requires clamps {
         if (!options_.clamp.is_automatic()) return false;
-        const auto before = totals_.weight;
+        const auto weight = totals_.weight, share = totals_.clamp.share;
         clamp_anew(visit, 1e-6);
         weigh();
         bool grown = false;
-        for (std::size_t c = 0; c < before.size(); ++c) grown = grown || totals_.weight[c] > 1.01 * before[c];
+        for (std::size_t c = 0; c < weight.size(); ++c) {
+            grown = grown || totals_.weight[c] > 1.01 * weight[c] || totals_.clamp.share[c] > 1.01 * share[c];
+        }
         return grown;
     }
 
-    void mark() { totals_.least = totals_.weight; }
+    void mark() {
+        totals_.least = totals_.weight;
+        if constexpr (clamps) totals_.clamp.least = totals_.clamp.share;
+    }
 
     double growth() const {
         double largest = 0.0;
-        for (std::size_t c = 0; c < totals_.weight.size(); ++c) {
-            const double factor = totals_.weight[c] / totals_.least[c];
+        const auto grows = [&largest](double now, double least) {
+            const double factor = now / least;
             largest = factor > largest ? factor : largest;
+        };
+        for (std::size_t c = 0; c < totals_.weight.size(); ++c) {
+            grows(totals_.weight[c], totals_.least[c]);
+            if constexpr (clamps) grows(totals_.clamp.share[c], totals_.clamp.least[c]);
         }
         return largest == largest ? largest : std::numeric_limits<double>::infinity();
     }
@@ -464,22 +476,24 @@ private:
 
     /// A light's share in the total is known also where the total is not, since it has been dark so far.
     void set_shares() requires clamps {
+        CutClamp<S>& clamp = totals_.clamp;
         const double limit = static_cast<double>(options_.clamp.radiance);
-        const double ratio = options_.clamp.is_automatic() ? static_cast<double>(options_.clamp.ratio)
-                                                           : std::numeric_limits<double>::infinity();
         for (std::size_t c = 0; c < totals_.weight.size(); ++c) {
             const double share = limit * totals_.weight[c];
-            totals_.clamp.share[c] = share < ratio ? share : ratio;
+            clamp.share[c] = share < clamp.ratio[c] ? share : clamp.ratio[c];
+            clamp.least[c] = clamp.share[c] < clamp.least[c] ? clamp.share[c] : clamp.least[c];
         }
     }
 
-    /// True if the total has left the neighbourhood of the one that the threshold was made of.
+    /// True if the total has left the neighbourhood of the one that the threshold was made of. Where few lights have
+    /// arrived, each more of them changes the ratio: a small neighbourhood.
     bool has_moved() const requires clamps {
         if (!options_.clamp.is_automatic()) return false;
         bool moved = false;
         for (std::size_t c = 0; c < totals_.total.size(); ++c) {
             const double now = totals_.total[c], then = totals_.clamp.total[c];
-            moved = moved || now > 1.1 * then || now < 0.9 * then;
+            const bool few = totals_.clamp.ratio[c] > static_cast<double>(options_.clamp.ratio);
+            moved = moved || now > 1.1 * then || now < 0.9 * then || (few && now != then);
         }
         return moved;
     }
@@ -491,6 +505,7 @@ private:
         });
         totals_.total = totals_.clamp.total = solved.total;
         totals_.clamp.threshold = solved.threshold;
+        totals_.clamp.ratio = solved.ratio;
         totals_.largest = totals_.total;
     }
 
