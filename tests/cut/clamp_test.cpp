@@ -263,11 +263,11 @@ TEST(ClampedError, BoundsTheDifferenceOfTotalsWithThresholdsOfTheirOwn) {
                 for (const float light : n.truth) f(light, n.lights < infinity ? 1.0 : infinity);
             }
         });
-        detail::ArrivingLights<float> arriving;
+        detail::ArrivingLights<float> arriving{detail::LightCount<float>(clamp), detail::LightCount<float>(clamp)};
         for (const Node& n : nodes) {
             if (n.lights == infinity) continue;
-            arriving.least[0] += n.estimate > 0.0f ? 1.0 : 0.0;
-            arriving.most[0] += n.bound > 0.0f ? n.lights : n.estimate > 0.0f ? 1.0 : 0.0;
+            arriving.least.lights[0] += n.estimate > 0.0f ? 1.0 : 0.0;
+            arriving.most.lights[0] += n.bound > 0.0f ? n.lights : n.estimate > 0.0f ? 1.0 : 0.0;
         }
         const double truth = sum.total[0];
         const double error = detail::clamped_error<float>(clamp, cut, arriving, [&](auto&& f) {

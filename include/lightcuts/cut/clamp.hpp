@@ -65,20 +65,40 @@ inline double clamp_threshold(const ClampOptions& clamp, double ratio, double to
     return share < limit ? share : limit;
 }
 
+/// Counts lights in every channel until there are so many that the ratio is the stated one.
+template <Spectrum S>
+struct LightCount {
+    ChannelSums<S> lights{};
+    double many;  ///< whatever is rounded
+
+    explicit LightCount(const ClampOptions& clamp) : many(2.000001 / static_cast<double>(clamp.ratio)) {}
+
+    bool is_known() const {
+        bool known = true;
+        for (const double n : lights) known = known && n >= many;
+        return known;
+    }
+    /// `count` lights in the channels in which `contribution` is above zero.
+    void add(const S& contribution, double count) {
+        for (std::size_t c = 0; c < lights.size(); ++c) {
+            lights[c] += channel(contribution, static_cast<int>(c)) > 0.0f ? count : 0.0;
+        }
+    }
+};
+
 /// The effective ratio in every channel. `visit(f)` as for `clamped_total`.
 template <Spectrum S, class Visit>
 ChannelSums<S> effective_ratios(const ClampOptions& clamp, const Visit& visit) {
-    ChannelSums<S> lights{};
-    if (clamp.is_automatic()) {
-        visit([&](const S& raw, double count) {
-            const double finite = count < std::numeric_limits<double>::infinity() ? count : 0.0;
-            for (std::size_t c = 0; c < lights.size(); ++c) {
-                lights[c] += channel(raw, static_cast<int>(c)) > 0.0f ? finite : 0.0;
-            }
-        });
-    }
-    for (double& n : lights) n = effective_ratio(clamp, n);
-    return lights;
+    LightCount<S> arriving(clamp);
+    bool known = !clamp.is_automatic();
+    visit([&](const S& raw, double lights) {
+        if (known || !(lights < std::numeric_limits<double>::infinity())) return;
+        arriving.add(raw, lights);
+        known = arriving.is_known();
+    });
+    ChannelSums<S> ratios{};
+    for (std::size_t c = 0; c < ratios.size(); ++c) ratios[c] = effective_ratio(clamp, arriving.lights[c]);
+    return ratios;
 }
 
 /// Solves `total = fixed + sum over contributions of min(raw, lights x threshold(total))` for the largest total, from
@@ -135,7 +155,7 @@ ClampedTotal<S> clamped_total(const ClampOptions& clamp, const ChannelSums<S>& f
 /// Between how many clamped lights arrive, in every channel.
 template <Spectrum S>
 struct ArrivingLights {
-    ChannelSums<S> least{}, most{};
+    LightCount<S> least, most;
 };
 
 /// Bounds the difference between a cut's clamped total and the true one, whose ratio and threshold are others.
@@ -163,8 +183,8 @@ ChannelSums<S> clamped_error(const ClampOptions& clamp, const ClampedTotal<S>& c
     std::array<Sums, ChannelSums<S>{}.size()> sums;
     for (std::size_t c = 0; c < sums.size(); ++c) {
         Sums& s = sums[c];
-        const double upper = effective_ratio(clamp, arriving.least[c]),
-                     lower = effective_ratio(clamp, arriving.most[c]);
+        const double upper = effective_ratio(clamp, arriving.least.lights[c]),
+                     lower = effective_ratio(clamp, arriving.most.lights[c]);
         // The cut's own threshold is that of its total but for a tolerance.
         const auto threshold_by = [&](double ratio) {
             return ratio == cut.ratio[c] ? cut.threshold[c] : clamp_threshold(clamp, ratio, cut.total[c]);
@@ -186,6 +206,7 @@ ChannelSums<S> clamped_error(const ClampOptions& clamp, const ClampedTotal<S>& c
             const double here = at_most(e, cut.threshold[c]);
             if (b == 0.0) {
                 s.exact_at_half += at_most(e, s.half_threshold);
+                if (!(e > lights * s.half_threshold)) continue;  // the least of thresholds
                 s.exact_gain += at_most(e, s.upper_threshold) - here;
                 s.exact_loss += here - at_most(e, s.lower_threshold);
                 s.exact_raw_gain += e - here;

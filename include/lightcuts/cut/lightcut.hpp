@@ -85,30 +85,27 @@ ClampedTotal<S> clamped_total(const Refinement<CutNode<S, true>>& refinement, co
 }
 
 /// How many clamped lights arrive: those that were looked at for certain, and others where there are bounds.
-template <class Forest, Spectrum S>
-ArrivingLights<S> arriving_lights(const Forest& forest, const Refinement<CutNode<S, true>>& refinement) {
-    ArrivingLights<S> arriving;
+template <Spectrum S>
+ArrivingLights<S> arriving_lights(const Refinement<CutNode<S, true>>& refinement, const ClampOptions& clamp) {
+    ArrivingLights<S> arriving{LightCount<S>(clamp), LightCount<S>(clamp)};
+    bool known = false, most_known = false;
     refinement.for_each([&](const CutNode<S, true>& n) {
-        if (!(n.lights < std::numeric_limits<float>::infinity())) return;
-        const bool single = is_black(n.bound);
-        // A cluster has colours that its representative may lack.
-        const S contribution = single || is_black(n.estimate)
-                                   ? n.estimate
-                                   : forest.visit(n.kind, [&](const auto& tree) {
-                                         return finite_product(n.terms, tree.clusters()[n.representative].intensity);
-                                     });
-        for (int c = 0; c < channels_of<S>; ++c) {
-            const auto i = static_cast<std::size_t>(c);
-            const double sure = channel(contribution, c) > 0.0f ? 1.0 : 0.0;
-            arriving.least[i] += sure;
-            arriving.most[i] += channel(n.bound, c) > 0.0f ? static_cast<double>(n.lights) : sure;
+        if (known || !(n.lights < std::numeric_limits<float>::infinity())) return;
+        const bool single = n.lights == 1.0f;
+        if (!most_known) {
+            arriving.most.add(single ? n.estimate : n.bound, static_cast<double>(n.lights));
+            most_known = arriving.most.is_known();
+        }
+        if (single || n.all_colours) {
+            arriving.least.add(n.estimate, 1.0);
+            known = arriving.least.is_known();
         }
     });
     return arriving;
 }
 
-template <class Forest, Spectrum S>
-CutResult<S> cut_result(const Forest&, const Refinement<CutNode<S>>& refinement, const CutTotals<S>& totals) {
+template <Spectrum S>
+CutResult<S> cut_result(const Refinement<CutNode<S>>& refinement, const CutTotals<S>& totals) {
     typename CutTotals<S>::Sums radiance{}, bound{};
     refinement.for_each([&](const CutNode<S>& n) {
         for (int c = 0; c < channels_of<S>; ++c) {
@@ -119,24 +116,25 @@ CutResult<S> cut_result(const Forest&, const Refinement<CutNode<S>>& refinement,
     return cut_result_of(refinement, totals.queries, radiance, bound);
 }
 
-template <class Forest, Spectrum S>
-CutResult<S> cut_result(const Forest& forest, const Refinement<CutNode<S, true>>& refinement,
-                        const CutTotals<S, true>& totals) {
+template <Spectrum S>
+CutResult<S> cut_result(const Refinement<CutNode<S, true>>& refinement, const CutTotals<S, true>& totals) {
     const ClampOptions& clamp = totals.clamp.options;
     const ClampedTotal<S> clamped = clamped_total(refinement, totals);
     ChannelSums<S> radiance{}, bound{};
-    refinement.for_each([&](const CutNode<S, true>& n) {
-        for (std::size_t c = 0; c < radiance.size(); ++c) {
-            const double most = static_cast<double>(n.lights) * clamped.threshold[c];
-            const double e = static_cast<double>(channel(n.estimate, static_cast<int>(c)));
-            const double b = static_cast<double>(channel(n.bound, static_cast<int>(c)));
-            radiance[c] += e > most ? most : e;
-            bound[c] += b > most ? most : b;
-        }
-    });
     if (clamp.is_automatic()) {
-        bound = clamped_error<S>(clamp, clamped, arriving_lights(forest, refinement), [&](auto&& f) {
+        radiance = clamped.total;
+        bound = clamped_error<S>(clamp, clamped, arriving_lights(refinement, clamp), [&](auto&& f) {
             refinement.for_each([&](const auto& n) { f(n.estimate, n.bound, static_cast<double>(n.lights)); });
+        });
+    } else {
+        refinement.for_each([&](const CutNode<S, true>& n) {
+            for (std::size_t c = 0; c < radiance.size(); ++c) {
+                const double most = static_cast<double>(n.lights) * clamped.threshold[c];
+                const double e = static_cast<double>(channel(n.estimate, static_cast<int>(c)));
+                const double b = static_cast<double>(channel(n.bound, static_cast<int>(c)));
+                radiance[c] += e > most ? most : e;
+                bound[c] += b > most ? most : b;
+            }
         });
     }
     CutResult<S> result = cut_result_of(refinement, totals.queries, radiance, bound);
@@ -185,7 +183,7 @@ public:
     }
 
     /// The estimate from the cut as it is.
-    CutResult<S> result() const { return detail::cut_result(forest_, refinement_, totals_); }
+    CutResult<S> result() const { return detail::cut_result(refinement_, totals_); }
 
     /// Calls `f(node)` for each CutNode of the cut, in no particular order.
     template <class F>
@@ -241,7 +239,7 @@ void shade_one_by_one(const Forest& forest, std::span<const Receiver<M>> receive
         LightcutProblem<Forest, Receiver<M>, Oracle, Policy> problem(forest, receivers[i], oracle, policy, options,
                                                                      slot.totals, scratch.queries);
         slot.refinement.run(problem, refinement);
-        results[i] = cut_result(forest, slot.refinement, slot.totals);
+        results[i] = cut_result(slot.refinement, slot.totals);
     }
 }
 
@@ -282,7 +280,7 @@ void shade_in_lock_step(const Forest& forest, std::span<const Receiver<M>> recei
                 problem.request(slot.refinement.fresh());
                 any = true;
             } else {
-                results[i] = cut_result(forest, slot.refinement, slot.totals);
+                results[i] = cut_result(slot.refinement, slot.totals);
             }
         }
     }

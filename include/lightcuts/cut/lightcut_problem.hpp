@@ -19,6 +19,7 @@ namespace lightcuts {
 
 namespace detail {
 struct LightCountTag {};
+struct ColoursTag {};
 struct ClampTag {};
 }  // namespace detail
 
@@ -27,6 +28,7 @@ struct ClampTag {};
 template <Spectrum S, bool Clamps = false>
 struct CutNode {
     using light_count = std::conditional_t<Clamps, float, detail::Absent<detail::LightCountTag>>;
+    using colours = std::conditional_t<Clamps, bool, detail::Absent<detail::ColoursTag>>;
 
     std::uint32_t node = 0;            ///< in its tree
     std::uint32_t representative = 0;  ///< leaf of the tree that stands for the cluster
@@ -37,6 +39,8 @@ struct CutNode {
     std::uint8_t kind = 0;             ///< tree of the forest
     bool bounded = false;              ///< `unit_bound` is the cluster's own
     bool queried = false;              ///< `terms` waits for the representative, or for its shadow ray
+    /// The representative shines in every channel; the cluster may shine in others than it.
+    [[no_unique_address]] colours all_colours{};
     /// Of the cluster; infinite if its kind is not clamped.
     [[no_unique_address]] light_count lights{};
 };
@@ -347,7 +351,10 @@ private:
         for (int i = 0; i < count; ++i) {
             node& n = *nodes[static_cast<std::size_t>(i)];
             n.terms = terms[static_cast<std::size_t>(i)];
-            if constexpr (ClampedLight<L>) n.terms = detail::at_most(n.terms, options_.clamp.terms);
+            if constexpr (ClampedLight<L>) {
+                n.terms = detail::at_most(n.terms, options_.clamp.terms);
+                n.all_colours = channel_min(tree.clusters()[n.representative].intensity) > 0.0f;
+            }
             n.queried = !is_black(n.terms);
             if (!n.queried) continue;
             n.estimate = finite_product(n.terms, tree.clusters()[n.node].intensity);
@@ -375,6 +382,7 @@ private:
         node& n = add_node(tree, parent.kind, index, parent.unit_bound, out);
         n.representative = parent.representative;
         n.terms = parent.terms;
+        if constexpr (clamps) n.all_colours = parent.all_colours;
         n.estimate = finite_product(n.terms, tree.clusters()[index].intensity);
     }
 
