@@ -183,66 +183,6 @@ TEST(Clamping, KeepsTheErrorWithinItsBoundWhereFewLightsArrive) {
     }
 }
 
-/// Alike, on a ring above the origin.
-std::vector<Virtual> ring(int n) {
-    std::vector<Virtual> lights;
-    for (int i = 0; i < n; ++i) {
-        const double angle = 2.0 * 3.14159265358979 * i / n;
-        const V place(std::cos(angle), std::sin(angle), 1.0);
-        lights.push_back({{place, -glm::normalize(place), V(1.0f, 0.5f, 0.25f), {}}});
-    }
-    return lights;
-}
-
-// By a hundredth of the total, fewer than a hundred lights would all be clamped to nothing, and 101 to next to it.
-TEST(Clamping, DoesNotDarkenLightsThatAreAlike) {
-    const Receiver<Lambert<V>> receiver(V(0.0f), Lambert<V>{{0.0f, 0.0f, 1.0f}, V(0.5f)});
-    const auto half = [](const auto&, const Virtual& light) { return light.position.x > 0.01f; };
-    const auto compare = [&](const auto& tree, const auto& oracle, int n) {
-        const V all = exhaustive(tree, receiver, oracle).radiance;
-        const V clamped = exhaustive(tree, receiver, oracle, automatic_clamping).radiance;
-        for (int c = 0; c < 3; ++c) EXPECT_NEAR(clamped[c], all[c], 1e-5f * all[c]) << n;
-        for (const LightcutOptions& options : {LightcutOptions{.error_ratio = 0.0f, .max_cut = 0, .few_lights = 0},
-                                               LightcutOptions{.few_lights = 0}, LightcutOptions{.few_lights = 300}}) {
-            LightcutOptions with = options;
-            with.clamp = automatic_clamping;
-            const V cut = shade(tree, receiver, oracle, with).radiance;
-            const V reference = shade(tree, receiver, oracle, options).radiance;
-            for (int c = 0; c < 3; ++c) EXPECT_NEAR(cut[c], reference[c], 0.05f * reference[c]) << n;
-            if (options.error_ratio > 0.0f && options.few_lights == 0) continue;
-            for (int c = 0; c < 3; ++c) EXPECT_NEAR(cut[c], all[c], 1e-5f * all[c]) << n;
-        }
-    };
-    for (int n = 1; n <= 300; ++n) {
-        const auto lights = ring(n);
-        const LightTree tree(lights);
-        compare(tree, AlwaysVisible{}, n);
-        compare(tree, half, n);
-    }
-}
-
-// One light among few, a thousand times as bright, adds some twice the mean of the others.
-TEST(Clamping, HoldsASpikeAmongFewLights) {
-    const Receiver<Lambert<V>> receiver(V(0.0f), Lambert<V>{{0.0f, 0.0f, 1.0f}, V(0.5f)});
-    for (int n = 3; n <= 300; ++n) {
-        auto lights = ring(n);
-        const V one = exhaustive(LightTree(lights), receiver).radiance / static_cast<float>(n);
-        lights.back().intensity *= 1000.0f;
-        const LightTree tree(lights);
-        const auto others = static_cast<float>(n - 1);
-        const float ratio = std::max(0.01f, 2.0f / static_cast<float>(n));
-        const V sum = exhaustive(tree, receiver, AlwaysVisible{}, automatic_clamping).radiance;
-        const auto exact = LightcutOptions{
-            .error_ratio = 0.0f, .max_cut = 0, .few_lights = 0, .clamp = automatic_clamping};
-        const V cut = shade(tree, receiver, AlwaysVisible{}, exact).radiance;
-        for (int c = 0; c < 3; ++c) {
-            const float expected = others * one[c] / (1.0f - ratio);
-            EXPECT_NEAR(sum[c], expected, 1e-4f * expected) << n;
-            EXPECT_NEAR(cut[c], expected, 1e-4f * expected) << n;
-        }
-    }
-}
-
 // The lights in front of the receivers would outshine everything.
 TEST(Clamping, TamesLightsAtTheReceiver) {
     Room<V> room(63);
