@@ -84,19 +84,21 @@ TEST(ClampingOfFewLights, HoldsASpikeAmongFewLights) {
 /// Direct light beside which all far lights are little, and one near light would be much.
 const std::vector<Direct> glow{{{0.0f, 0.0f, 1.0f}, {0.0f, 0.0f, -1.0f}, V(60.0f), {}}};
 
-/// Lights that are far and seen, and pairs that are near and hidden: by bounds they might be the brightest.
-std::vector<Virtual> far_and_near(int far, int near) {
-    std::vector<Virtual> lights = ring(far, 10.0, 1e-3);
+/// Lights that are far and seen, and pairs that are near and hidden: by bounds they might be the brightest. `power`: of
+/// a far light, whatever its light on the floor.
+std::vector<Virtual> far_and_near(int far, int near, float power) {
+    std::vector<Virtual> lights = ring(far, 10.0 * std::sqrt(power), 1e-3);
+    for (Virtual& light : lights) light.intensity *= power;
     const std::vector<Virtual> more = ring(near, 0.3, 1e-3);
     lights.insert(lights.end(), more.begin(), more.end());
     return lights;
 }
 constexpr auto is_far = [](const auto&, const auto& light) { return light.position.z > 0.5f; };
 
-/// Cuts of which the first look at the cluster of all finds a far light or a near one.
+/// Cuts of which the first look at the cluster of all finds a far light or a near one, each about as often.
 template <class F>
 void for_each_first_look(int far, int near, const ClampOptions& clamp, F&& f) {
-    const auto lights = far_and_near(far, near);
+    const auto lights = far_and_near(far, near, static_cast<float>(near) / static_cast<float>(far));
     const LightTree direct(glow);
     const LightTree tree(lights, {.representatives = 8});
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
