@@ -26,7 +26,7 @@ struct ClampOptions {
     bool has_threshold() const { return is_automatic() || radiance < std::numeric_limits<float>::infinity(); }
 };
 
-/// No clamped light adds more than a hundredth of the total.
+/// No clamped light adds more than a hundredth of the total where 200 arrive, or twice the mean where fewer do.
 inline constexpr ClampOptions automatic_clamping{.ratio = 0.01f};
 
 namespace detail {
