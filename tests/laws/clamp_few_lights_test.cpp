@@ -139,6 +139,23 @@ TEST(ClampingOfFewLights, SplitsNoPairsOfMany) {
     });
 }
 
+// A spike that is found before the lights which show that it is one does not pass for all the light there is.
+TEST(ClampingOfFewLights, AreLookedForBesideASpike) {
+    auto lights = ring(3000);
+    lights.push_back({{{0.0f, 0.0f, 0.02f}, {0.0f, 0.0f, -1.0f}, V(1.0f), {}}});
+    std::vector<V> places;
+    for (std::size_t i = 0; i < lights.size(); i += 30) places.push_back(lights[i].position);
+    const auto seen = [&](const auto&, const Virtual& light) {
+        return std::find(places.begin(), places.end(), light.position) != places.end();
+    };
+    const LightTree tree(lights);
+    const V exact = exhaustive(tree, floor_point, seen, automatic_clamping).radiance;
+    for (const std::size_t max_cut : {0u, 1000u}) {
+        const CutResult<V> result = shade(tree, floor_point, seen, {.max_cut = max_cut, .clamp = automatic_clamping});
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(result.radiance[c], exact[c], 0.3f * exact[c]) << max_cut;
+    }
+}
+
 // In the dark, whatever arrives first may be all there is.
 TEST(ClampingOfFewLights, FindsTheOnlyOneThatArrives) {
     const auto lights = ring(300, 1.5, 1e-3);

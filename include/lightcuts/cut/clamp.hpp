@@ -86,7 +86,7 @@ struct LightCount {
     }
 };
 
-/// The effective ratio in every channel. `visit(f)` as for `clamped_total`.
+/// The effective ratio in every channel; infinite if clamping is not automatic. `visit(f)` as for `clamped_total`.
 template <Spectrum S, class Visit>
 ChannelSums<S> effective_ratios(const ClampOptions& clamp, const Visit& visit) {
     LightCount<S> arriving(clamp);
@@ -105,16 +105,16 @@ ChannelSums<S> effective_ratios(const ClampOptions& clamp, const Visit& visit) {
 /// above or from a guess, in every channel. The sum is concave and piecewise linear in the total, and not negative at
 /// zero: Newton's method descends to the root in finitely many steps, of which there are rarely more than three.
 /// `visit(f)` calls f(raw, lights) for every contribution, of infinitely many lights if it is not clamped. The
-/// threshold is that of a total within `tolerance` of the root, and the total is the sum under this very threshold. The
-/// ratio depends on the contributions, but not on the total.
+/// threshold is that of a total within `tolerance` of the root, and the total is the sum under this very threshold.
+/// `ratio`: effective.
 template <Spectrum S, class Visit>
-ClampedTotal<S> clamped_total(const ClampOptions& clamp, const ChannelSums<S>& fixed, ChannelSums<S> guess,
-                              double tolerance, const Visit& visit) {
+ClampedTotal<S> clamped_total(const ClampOptions& clamp, const ChannelSums<S>& ratio, const ChannelSums<S>& fixed,
+                              ChannelSums<S> guess, double tolerance, const Visit& visit) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     constexpr int most_steps = 100;
     for (double& g : guess) g = g > 0.0 ? g : infinity;  // zero may be a root below the largest
     ClampedTotal<S> result;
-    result.ratio = effective_ratios<S>(clamp, visit);
+    result.ratio = ratio;
     for (int step = 0; step < most_steps; ++step) {
         // Step 1: what is not clamped under this guess, and how many lights are.
         for (std::size_t c = 0; c < guess.size(); ++c) {
@@ -150,6 +150,13 @@ ClampedTotal<S> clamped_total(const ClampOptions& clamp, const ChannelSums<S>& f
         if (found) break;
     }
     return result;
+}
+
+/// The same with the ratio that follows from the contributions.
+template <Spectrum S, class Visit>
+ClampedTotal<S> clamped_total(const ClampOptions& clamp, const ChannelSums<S>& fixed, const ChannelSums<S>& guess,
+                              double tolerance, const Visit& visit) {
+    return clamped_total<S>(clamp, effective_ratios<S>(clamp, visit), fixed, guess, tolerance, visit);
 }
 
 /// Between how many clamped lights arrive, in every channel.

@@ -75,10 +75,9 @@ CutResult<S> cut_result_of(const Refinement<CutNode<S, Clamps>>& refinement, std
 template <Spectrum S>
 ClampedTotal<S> clamped_total(const Refinement<CutNode<S, true>>& refinement, const CutTotals<S, true>& totals) {
     const ClampOptions& clamp = totals.clamp.options;
-    // Converged refinements have found it.
-    if (!clamp.is_automatic() || refinement.stop_reason() == StopReason::converged) {
-        return {totals.total, totals.clamp.threshold, totals.clamp.ratio};
-    }
+    // Converged refinements have found it, unless they had lights in mind which did not arrive.
+    const bool is_found = refinement.stop_reason() == StopReason::converged && totals.clamp.is_final;
+    if (!clamp.is_automatic() || is_found) { return {totals.total, totals.clamp.threshold, totals.clamp.ratio}; }
     return clamped_total<S>(clamp, {}, totals.total, 1e-6, [&](auto&& f) {
         refinement.for_each([&](const auto& n) { f(n.estimate, static_cast<double>(n.lights)); });
     });

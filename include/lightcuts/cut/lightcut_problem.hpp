@@ -53,7 +53,8 @@ struct CutClamp {
     detail::ChannelSums<S> share{};      ///< the most that a light's error adds to a priority
     detail::ChannelSums<S> least{};      ///< least shares since the last mark
     detail::ChannelSums<S> total{};      ///< of which the threshold was made
-    detail::ChannelSums<S> ratio{};      ///< by which it was; infinite while no light has arrived
+    detail::ChannelSums<S> ratio{};      ///< by the lights that have arrived; infinite while there are none
+    bool is_final = false;               ///< the threshold was made by that ratio, not with others in mind
 };
 
 /// Radiance sums of one receiver's cut, in double.
@@ -506,15 +507,51 @@ private:
         return moved;
     }
 
+    /// Solves for total and threshold as if, of the lights in clusters that are dark so far, those were yet to arrive
+    /// that may: one of the clusters' mean size. A spike that is found early would else be most of the total, by which
+    /// all that shows it to be a spike is too little to be looked for.
     template <class Visit>
     void clamp_anew(const Visit& visit, double tolerance) requires clamps {
-        const auto solved = detail::clamped_total<S>(options_.clamp, {}, totals_.total, tolerance, [&](auto&& f) {
-            visit([&](const node& n) { f(n.estimate, static_cast<double>(n.lights)); });
-        });
-        totals_.total = totals_.clamp.total = solved.total;
-        totals_.clamp.threshold = solved.threshold;
-        totals_.clamp.ratio = solved.ratio;
+        CutClamp<S>& clamp = totals_.clamp;
+        const detail::ChannelSums<S> cautious = count_anew(visit);
+        const auto solved = detail::clamped_total<S>(
+            options_.clamp, cautious, {}, totals_.total, tolerance,
+            [&](auto&& f) { visit([&](const node& n) { f(n.estimate, static_cast<double>(n.lights)); }); });
+        clamp.is_final = cautious == clamp.ratio;
+        totals_.total = clamp.total = solved.total;
+        clamp.threshold = solved.threshold;
+        for (std::size_t c = 0; c < cautious.size(); ++c) {
+            // Lights that arrive next show themselves.
+            if (solved.total[c] == 0.0) clamp.threshold[c] = static_cast<double>(options_.clamp.radiance);
+        }
         totals_.largest = totals_.total;
+    }
+
+    /// Finds the ratio by the lights that have arrived; returns that with those which may yet.
+    template <class Visit>
+    detail::ChannelSums<S> count_anew(const Visit& visit) requires clamps {
+        detail::LightCount<S> arriving(options_.clamp);
+        detail::ChannelSums<S> dark{}, dark_clusters{};
+        bool known = false;
+        visit([&](const node& n) {
+            if (known || !(n.lights < std::numeric_limits<float>::infinity())) return;
+            const auto lights = static_cast<double>(n.lights);
+            arriving.add(n.estimate, lights);
+            for (std::size_t c = 0; c < dark.size(); ++c) {
+                const int i = static_cast<int>(c);
+                const bool is_dark = channel(n.bound, i) > 0.0f && channel(n.estimate, i) == 0.0f;
+                dark[c] += is_dark ? lights : 0.0;
+                dark_clusters[c] += is_dark ? 1.0 : 0.0;
+            }
+            known = arriving.is_known();
+        });
+        detail::ChannelSums<S> cautious{};
+        for (std::size_t c = 0; c < cautious.size(); ++c) {
+            const double sure = arriving.lights[c];
+            totals_.clamp.ratio[c] = detail::effective_ratio(options_.clamp, sure);
+            cautious[c] = detail::effective_ratio(options_.clamp, sure + dark[c] / (dark_clusters[c] + 1.0));
+        }
+        return cautious;
     }
 
     double density(const node& n) const {
