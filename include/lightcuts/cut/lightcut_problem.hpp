@@ -530,26 +530,30 @@ private:
     /// Finds the ratio by the lights that have arrived; returns that with those which may yet.
     template <class Visit>
     detail::ChannelSums<S> count_anew(const Visit& visit) requires clamps {
-        detail::LightCount<S> arriving(options_.clamp);
-        detail::ChannelSums<S> dark{}, dark_clusters{};
-        bool known = false;
+        auto& ratio = totals_.clamp.ratio;
+        ratio = detail::effective_ratios<S>(options_.clamp, [&](auto&& f) {
+            visit([&](const node& n) { f(n.estimate, static_cast<double>(n.lights)); });
+        });
+        bool many = true;
+        for (const double r : ratio) many = many && r == static_cast<double>(options_.clamp.ratio);
+        if (many) return ratio;
+        detail::ChannelSums<S> lights{}, dark{}, dark_clusters{};
         visit([&](const node& n) {
-            if (known || !(n.lights < std::numeric_limits<float>::infinity())) return;
-            const auto lights = static_cast<double>(n.lights);
-            arriving.add(n.estimate, lights);
+            if (!(n.lights < std::numeric_limits<float>::infinity())) return;
             for (std::size_t c = 0; c < dark.size(); ++c) {
                 const int i = static_cast<int>(c);
-                const bool is_dark = channel(n.bound, i) > 0.0f && channel(n.estimate, i) == 0.0f;
-                dark[c] += is_dark ? lights : 0.0;
-                dark_clusters[c] += is_dark ? 1.0 : 0.0;
+                const auto count = static_cast<double>(n.lights);
+                if (channel(n.estimate, i) > 0.0f) {
+                    lights[c] += count;
+                } else if (channel(n.bound, i) > 0.0f) {
+                    dark[c] += count;
+                    dark_clusters[c] += 1.0;
+                }
             }
-            known = arriving.is_known();
         });
         detail::ChannelSums<S> cautious{};
         for (std::size_t c = 0; c < cautious.size(); ++c) {
-            const double sure = arriving.lights[c];
-            totals_.clamp.ratio[c] = detail::effective_ratio(options_.clamp, sure);
-            cautious[c] = detail::effective_ratio(options_.clamp, sure + dark[c] / (dark_clusters[c] + 1.0));
+            cautious[c] = detail::effective_ratio(options_.clamp, lights[c] + dark[c] / (dark_clusters[c] + 1.0));
         }
         return cautious;
     }
