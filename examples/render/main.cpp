@@ -123,17 +123,6 @@ void save(const Outputs& outputs, const Picture& picture, const RunReport& repor
     json.commit();
 }
 
-/// Of clamping that darkens a picture rather than its blotches.
-void warn_of_few_virtual_lights(const Scene& scene, const Options& options) {
-    const lightcuts::ClampOptions clamp = options.clamping();
-    const std::size_t count = scene.virtual_lights.size();
-    if (options.quiet || count == 0 || !clamp.is_automatic() || static_cast<float>(count) * clamp.ratio >= 1.0f) return;
-    std::fprintf(stderr,
-                 "lightcuts-render: warning: %zu virtual lights, each clamped to %g of the light at a point, cannot "
-                 "light what no other light reaches; raise --indirect or --clamp-ratio\n",
-                 count, static_cast<double>(clamp.ratio));
-}
-
 /// Of an error that is that of clamping rather than of the method.
 void warn_of_clamped_reference(const Scene& scene, const Options& options) {
     if (options.quiet || options.reference.empty() || scene.virtual_lights.empty() || !options.is_clamp_idle()) return;
@@ -164,7 +153,6 @@ ExitStatus render_scene(Options options) {
     arena.execute([&] {
         const Shade shade = shade_of(options);
         add_virtual_lights(scene, rays, options.indirect, shade, options.seed);
-        warn_of_few_virtual_lights(scene, options);
         warn_of_clamped_reference(scene, options);
         report.seconds.particles = watch.lap();
         const auto shader = make_shader(scene, rays, options);

@@ -108,7 +108,9 @@ private:
             statistics.at_limit += shading.at_limit ? 1 : 0;
             for (int c = 0; c < 3; ++c) {
                 const double threshold = static_cast<double>(shading.clamp_threshold[c]);
-                statistics.clamp_threshold_sum += threshold / 3.0;
+                if (!std::isfinite(threshold)) continue;
+                ++statistics.clamp_thresholds;
+                statistics.clamp_threshold_sum += threshold;
                 statistics.least_clamp_threshold = std::min(statistics.least_clamp_threshold, threshold);
                 statistics.largest_clamp_threshold = std::max(statistics.largest_clamp_threshold, threshold);
             }
@@ -172,6 +174,7 @@ void accumulate(RenderStatistics& total, const RenderStatistics& tile) {
     total.at_limit += tile.at_limit;
     total.error_bound_sum += tile.error_bound_sum;
     total.largest_error_bound = std::max(total.largest_error_bound, tile.largest_error_bound);
+    total.clamp_thresholds += tile.clamp_thresholds;
     total.clamp_threshold_sum += tile.clamp_threshold_sum;
     total.least_clamp_threshold = std::min(total.least_clamp_threshold, tile.least_clamp_threshold);
     total.largest_clamp_threshold = std::max(total.largest_clamp_threshold, tile.largest_clamp_threshold);

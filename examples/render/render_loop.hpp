@@ -21,8 +21,8 @@ struct RenderStatistics {
     std::uint64_t at_limit = 0;  ///< points whose cut ended at the largest size allowed
     double error_bound_sum = 0;  ///< over pixels, of the largest channel
     double largest_error_bound = 0;
-    double clamp_threshold_sum = 0;  ///< over points, of the channels' mean; infinite without clamping
-    /// Of all channels.
+    std::uint64_t clamp_thresholds = 0;  ///< channels of points in which there was one
+    double clamp_threshold_sum = 0;
     double least_clamp_threshold = std::numeric_limits<double>::infinity();
     double largest_clamp_threshold = 0;
 };

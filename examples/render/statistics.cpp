@@ -77,10 +77,10 @@ Json clamp_json(const RunReport& report) {
     json["mode"] = clamp.is_automatic() ? "auto" : clamp.has_threshold() ? "value" : "off";
     json["ratio"] = clamp.is_automatic() ? Json(as_written(clamp.ratio)) : Json(nullptr);
     json["threshold"] = nullptr;
-    if (clamp.has_threshold() && s.points > 0) {
-        json["threshold"] = {{"mean", finite_or_null(per(s.clamp_threshold_sum, s.points))},
-                             {"min", finite_or_null(s.least_clamp_threshold)},
-                             {"max", finite_or_null(s.largest_clamp_threshold)}};
+    if (s.clamp_thresholds > 0) {
+        json["threshold"] = {{"mean", per(s.clamp_threshold_sum, s.clamp_thresholds)},
+                             {"min", s.least_clamp_threshold},
+                             {"max", s.largest_clamp_threshold}};
     }
     return json;
 }

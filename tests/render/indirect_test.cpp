@@ -185,20 +185,23 @@ TEST_F(IndirectLight, IsNotClampedByMethodsThatCannot) {
     }
 }
 
-TEST_F(IndirectLight, OfTooFewLightsIsWarnedOf) {
-    const std::string scene = "room.obj --size 4x3 --indirect 50" + view;
-    const auto warned = [&](const std::string& options) {
-        const auto result = render(scene + options);
-        EXPECT_EQ(result.status, 0) << result.err;
-        return result.err.find("--clamp-ratio") != std::string::npos;
-    };
-    EXPECT_TRUE(warned(""));
-    EXPECT_TRUE(warned("--method exhaustive"));
-    EXPECT_FALSE(warned("--clamp-ratio 0.1"));
-    EXPECT_FALSE(warned("--clamp off"));
-    EXPECT_FALSE(warned("--clamp 0.1"));
-    EXPECT_FALSE(warned("--method power"));
-    EXPECT_EQ(render(scene + "--quiet").err, "");
+// A hundredth of the total each, 50 virtual lights could not make up any.
+TEST_F(IndirectLight, OfFewLightsIsNotClampedToNothing) {
+    for (const std::string method : {"exhaustive", "lightcuts"}) {
+        const std::string scene = "room.obj --size 16x12 --indirect 50 --method " + method + view;
+        const Picture off = rendered(scene + "--clamp off");
+        const Picture automatic = rendered(scene);
+        double sum = 0, clamped_sum = 0;
+        for (std::size_t i = 0; i < off.size(); ++i) {
+            for (int c = 0; c < 3; ++c) {
+                EXPECT_LE(automatic.pixels[i][c], 1.00001f * off.pixels[i][c]);
+                EXPECT_GE(automatic.pixels[i][c], 0.05f * off.pixels[i][c]) << method << " " << i;
+                sum += static_cast<double>(off.pixels[i][c]);
+                clamped_sum += static_cast<double>(automatic.pixels[i][c]);
+            }
+        }
+        EXPECT_GT(clamped_sum, 0.7 * sum) << method;
+    }
 }
 
 TEST_F(IndirectLight, OfAMethodThatDoesNotClampIsNotComparedSilently) {

@@ -14,7 +14,8 @@ struct ClampOptions {
     /// Radiance. pre: >= 0.
     float radiance = std::numeric_limits<float>::infinity();
     /// Share of the receiver's total, itself clamped [Lightcuts 2005, section 5]; 1 and above is off. Where fewer than
-    /// 1 / ratio clamped lights arrive and nothing else, all are clamped to nothing. pre: >= 0.
+    /// 2 / ratio clamped lights arrive, n of them, it is 2 / n, so that lights which are alike are never clamped. In
+    /// every channel by itself. pre: >= 0.
     float ratio = std::numeric_limits<float>::infinity();
     /// Material x geometric term, per unit intensity [Multidimensional Lightcuts 2006, Eq. 14]. pre: >= 0.
     float terms = std::numeric_limits<float>::infinity();
@@ -25,7 +26,7 @@ struct ClampOptions {
     bool has_threshold() const { return is_automatic() || radiance < std::numeric_limits<float>::infinity(); }
 };
 
-/// No clamped light adds more than a hundredth of the total.
+/// No clamped light adds more than a hundredth of the total where 200 arrive, or twice the mean where fewer do.
 inline constexpr ClampOptions automatic_clamping{.ratio = 0.01f};
 
 namespace detail {
@@ -45,13 +46,59 @@ template <Spectrum S>
 struct ClampedTotal {
     ChannelSums<S> total{};
     ChannelSums<S> threshold{};  ///< the most that a clamped light adds
+    ChannelSums<S> ratio{};      ///< that share of the total; infinite if it may be all of it
 };
 
-/// The threshold under a total that may be infinite.
-inline double clamp_threshold(const ClampOptions& clamp, double total) {
+/// The share of the total that one of `lights` may add, which are the clamped ones that arrive; infinite if that is
+/// all of it. At least twice the share of each if they are alike: n lights of more than 1 / n each have no total but 0.
+inline double effective_ratio(const ClampOptions& clamp, double lights) {
+    // In float, as the other is: 2 / 200 is not above 0.01.
+    const float least = static_cast<float>(2.0 / lights);
+    const float ratio = least > clamp.ratio ? least : clamp.ratio;
+    return ratio < 1.0f ? static_cast<double>(ratio) : std::numeric_limits<double>::infinity();
+}
+
+/// The threshold under a total that may be infinite; `ratio` as it is effective.
+inline double clamp_threshold(const ClampOptions& clamp, double ratio, double total) {
     const double limit = static_cast<double>(clamp.radiance);
-    const double share = clamp.is_automatic() ? static_cast<double>(clamp.ratio) * total : limit;
+    const double share = ratio < 1.0 ? ratio * total : limit;
     return share < limit ? share : limit;
+}
+
+/// Counts lights in every channel until there are so many that the ratio is the stated one.
+template <Spectrum S>
+struct LightCount {
+    ChannelSums<S> lights{};
+    double many;  ///< whatever is rounded
+
+    explicit LightCount(const ClampOptions& clamp) : many(2.000001 / static_cast<double>(clamp.ratio)) {}
+
+    bool is_known() const {
+        bool known = true;
+        for (const double n : lights) known = known && n >= many;
+        return known;
+    }
+    /// `count` lights in the channels in which `contribution` is above zero.
+    void add(const S& contribution, double count) {
+        for (std::size_t c = 0; c < lights.size(); ++c) {
+            lights[c] += channel(contribution, static_cast<int>(c)) > 0.0f ? count : 0.0;
+        }
+    }
+};
+
+/// The effective ratio in every channel; infinite if clamping is not automatic. `visit(f)` as for `clamped_total`.
+template <Spectrum S, class Visit>
+ChannelSums<S> effective_ratios(const ClampOptions& clamp, const Visit& visit) {
+    LightCount<S> arriving(clamp);
+    bool known = !clamp.is_automatic();
+    visit([&](const S& raw, double lights) {
+        if (known || !(lights < std::numeric_limits<double>::infinity())) return;
+        arriving.add(raw, lights);
+        known = arriving.is_known();
+    });
+    ChannelSums<S> ratios{};
+    for (std::size_t c = 0; c < ratios.size(); ++c) ratios[c] = effective_ratio(clamp, arriving.lights[c]);
+    return ratios;
 }
 
 /// Solves `total = fixed + sum over contributions of min(raw, lights x threshold(total))` for the largest total, from
@@ -59,82 +106,123 @@ inline double clamp_threshold(const ClampOptions& clamp, double total) {
 /// zero: Newton's method descends to the root in finitely many steps, of which there are rarely more than three.
 /// `visit(f)` calls f(raw, lights) for every contribution, of infinitely many lights if it is not clamped. The
 /// threshold is that of a total within `tolerance` of the root, and the total is the sum under this very threshold.
+/// `ratio`: effective.
 template <Spectrum S, class Visit>
-ClampedTotal<S> clamped_total(const ClampOptions& clamp, const ChannelSums<S>& fixed, ChannelSums<S> guess,
-                              double tolerance, const Visit& visit) {
+ClampedTotal<S> clamped_total(const ClampOptions& clamp, const ChannelSums<S>& ratio, const ChannelSums<S>& fixed,
+                              ChannelSums<S> guess, double tolerance, const Visit& visit) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     constexpr int most_steps = 100;
     for (double& g : guess) g = g > 0.0 ? g : infinity;  // zero may be a root below the largest
     ClampedTotal<S> result;
+    result.ratio = ratio;
     for (int step = 0; step < most_steps; ++step) {
-        // Step 1: the sum under this guess, and how many lights are clamped.
-        for (std::size_t c = 0; c < guess.size(); ++c) result.threshold[c] = clamp_threshold(clamp, guess[c]);
-        result.total = fixed;
-        ChannelSums<S> clamped{};
+        // Step 1: what is not clamped under this guess, and how many lights are.
+        for (std::size_t c = 0; c < guess.size(); ++c) {
+            result.threshold[c] = clamp_threshold(clamp, result.ratio[c], guess[c]);
+        }
+        ChannelSums<S> rest = fixed, clamped{};
         visit([&](const S& raw, double lights) {
             for (std::size_t c = 0; c < guess.size(); ++c) {
                 const double value = static_cast<double>(channel(raw, static_cast<int>(c)));
                 const double limit = lights * result.threshold[c];  // NaN: not clamped, at a threshold of zero
-                result.total[c] += value > limit ? limit : value;
+                rest[c] += value > limit ? 0.0 : value;
                 clamped[c] += value > limit ? lights : 0.0;
             }
         });
-        // Step 2: the root of the tangent.
+        // Step 2: the root of the tangent, without a difference of sums, of which a spike may be nearly all.
         bool found = true;
         for (std::size_t c = 0; c < guess.size(); ++c) {
             const bool moves = result.threshold[c] < static_cast<double>(clamp.radiance);
-            const double slope = moves ? static_cast<double>(clamp.ratio) * clamped[c] : 0.0;
-            const double excess = result.total[c] - guess[c];
+            const double slope = moves ? result.ratio[c] * clamped[c] : 0.0;
+            result.total[c] = clamped[c] > 0.0 ? rest[c] + result.threshold[c] * clamped[c] : rest[c];
             double next = infinity;  // left of the root: once more from above
             if (!(guess[c] < infinity)) {
                 next = result.total[c];
             } else if (slope < 1.0) {
-                next = guess[c] + excess / (1.0 - slope);
-            } else if (excess <= tolerance * guess[c]) {
+                next = (moves ? rest[c] : result.total[c]) / (1.0 - slope);
+            } else if (result.total[c] - guess[c] <= tolerance * guess[c]) {
                 next = guess[c];
             }
             const double moved = next - guess[c];
             found = found && guess[c] < infinity && moved <= tolerance * guess[c] && -moved <= tolerance * guess[c];
-            guess[c] = next > 0.0 ? next : 0.0;
+            guess[c] = next;
         }
         if (found) break;
     }
     return result;
 }
 
-/// Bounds the difference between a cut's clamped total and the true one, whose threshold is another: both are roots
-/// of concave functions of the total between that of the exact nodes alone and that of bounds in place of estimates.
-/// `visit(f)` calls f(raw estimate, raw bound, lights) for every node of the cut; zero bounds are exact nodes.
+/// The same with the ratio that follows from the contributions.
 template <Spectrum S, class Visit>
-ChannelSums<S> clamped_error(const ClampOptions& clamp, const ClampedTotal<S>& cut, const Visit& visit) {
+ClampedTotal<S> clamped_total(const ClampOptions& clamp, const ChannelSums<S>& fixed, const ChannelSums<S>& guess,
+                              double tolerance, const Visit& visit) {
+    return clamped_total<S>(clamp, effective_ratios<S>(clamp, visit), fixed, guess, tolerance, visit);
+}
+
+/// Between how many clamped lights arrive, in every channel.
+template <Spectrum S>
+struct ArrivingLights {
+    LightCount<S> least, most;
+};
+
+/// Bounds the difference between a cut's clamped total and the true one, whose ratio and threshold are others.
+/// `visit(f)` calls f(raw estimate, raw bound, lights) for every node of the cut; zero bounds are exact nodes.
+///
+/// For a given ratio the total is the largest root of a concave function of the total. The larger the function, the
+/// larger the root; and the function increases with the ratio and with every contribution. So both totals lie between
+/// the root with exact nodes alone and the ratio of most lights, and that with bounds in place of estimates and the
+/// ratio of fewest lights. Tangents of the latter function are above it, chords of the former below.
+template <Spectrum S, class Visit>
+ChannelSums<S> clamped_error(const ClampOptions& clamp, const ClampedTotal<S>& cut, const ArrivingLights<S>& arriving,
+                             const Visit& visit) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     struct Sums {
-        double bound = 0, raw_bound = 0;        ///< of the nodes that are not exact
-        double loose = 0;                       ///< their estimates
-        double exact_at_half = 0;               ///< the others' estimates under half the total
-        double clamped = 0, clamped_exact = 0;  ///< lights in nodes that are clamped if bounds are true
-        double half_threshold = 0, ratio = 0;
+        double upper_threshold = 0, lower_threshold = 0;  ///< under the cut's total, by the extreme ratios
+        double half_threshold = 0;                        ///< the lower one, under half the total
+        double bound = 0, raw_bound = 0;                  ///< of the nodes that are not exact
+        double loose = 0;                                 ///< their estimates
+        double exact_gain = 0, exact_loss = 0;            ///< of the others' estimates by the extreme thresholds
+        double exact_raw_gain = 0;                        ///< and by none
+        double exact_at_half = 0;                         ///< they under half the total
+        double clamped = 0, clamped_exact = 0;            ///< lights in nodes that are clamped if bounds are true
+        double upper_ratio = 0;                           ///< slope of the upper threshold
     };
     std::array<Sums, ChannelSums<S>{}.size()> sums;
     for (std::size_t c = 0; c < sums.size(); ++c) {
-        sums[c].half_threshold = clamp_threshold(clamp, 0.5 * cut.total[c]);
-        sums[c].ratio = cut.threshold[c] < static_cast<double>(clamp.radiance) ? static_cast<double>(clamp.ratio) : 0.0;
+        Sums& s = sums[c];
+        const double upper = effective_ratio(clamp, arriving.least.lights[c]),
+                     lower = effective_ratio(clamp, arriving.most.lights[c]);
+        // The cut's own threshold is that of its total but for a tolerance.
+        const auto threshold_by = [&](double ratio) {
+            return ratio == cut.ratio[c] ? cut.threshold[c] : clamp_threshold(clamp, ratio, cut.total[c]);
+        };
+        s.upper_threshold = threshold_by(upper);
+        s.lower_threshold = threshold_by(lower);
+        s.half_threshold = clamp_threshold(clamp, lower, 0.5 * cut.total[c]);
+        s.upper_ratio = s.upper_threshold < static_cast<double>(clamp.radiance) ? upper : 0.0;
     }
     visit([&](const S& estimate, const S& bound, double lights) {
+        const auto at_most = [lights](double value, double threshold) {
+            const double limit = lights * threshold;
+            return value > limit ? limit : value;
+        };
         for (std::size_t c = 0; c < sums.size(); ++c) {
             Sums& s = sums[c];
             const double e = static_cast<double>(channel(estimate, static_cast<int>(c)));
             const double b = static_cast<double>(channel(bound, static_cast<int>(c)));
-            const double limit = lights * cut.threshold[c];
+            const double here = at_most(e, cut.threshold[c]);
             if (b == 0.0) {
-                const double half_limit = lights * s.half_threshold;
-                s.exact_at_half += e > half_limit ? half_limit : e;
-                s.clamped_exact += e > limit ? lights : 0.0;
+                s.exact_at_half += at_most(e, s.half_threshold);
+                if (!(e > lights * s.half_threshold)) continue;  // the least of thresholds
+                s.exact_gain += at_most(e, s.upper_threshold) - here;
+                s.exact_loss += here - at_most(e, s.lower_threshold);
+                s.exact_raw_gain += e - here;
+                s.clamped_exact += e > lights * s.upper_threshold ? lights : 0.0;
             } else {
-                s.loose += e > limit ? limit : e;
-                s.bound += b > limit ? limit : b;
+                s.loose += here;
+                s.bound += at_most(b, s.upper_threshold);
                 s.raw_bound += b;
-                s.clamped += b > limit ? lights : 0.0;
+                s.clamped += b > lights * s.upper_threshold ? lights : 0.0;
             }
         }
     });
@@ -142,14 +230,18 @@ ChannelSums<S> clamped_error(const ClampOptions& clamp, const ClampedTotal<S>& c
     for (std::size_t c = 0; c < sums.size(); ++c) {
         const Sums& s = sums[c];
         if (s.raw_bound == 0.0) continue;
-        // Above: the root of the tangent of the upper function, with bounds clamped or not.
-        const double exact_slope = s.ratio * s.clamped_exact, slope = exact_slope + s.ratio * s.clamped;
-        const double clamped_above = slope < 1.0 ? s.bound / (1.0 - slope) : infinity;
-        const double raw_above = exact_slope < 1.0 ? s.raw_bound / (1.0 - exact_slope) : infinity;
-        const double above = clamped_above < raw_above ? clamped_above : raw_above;
+        // Above: the least root of three tangents of the upper function.
+        const double exact_slope = s.upper_ratio * s.clamped_exact;
+        double above = s.exact_raw_gain + s.raw_bound;  // far out, where nothing is clamped
+        const auto lower_above = [&](double excess, double slope) {
+            const double root = slope < 1.0 ? excess / (1.0 - slope) : infinity;
+            above = root < above ? root : above;
+        };
+        lower_above(s.exact_gain + s.bound, exact_slope + s.upper_ratio * s.clamped);
+        lower_above(s.exact_gain + s.raw_bound, exact_slope);
         // Below: the root of the chord of the lower function between half the total and all of it.
-        const double half = 0.5 * cut.total[c], excess = s.exact_at_half - half;
-        const double below = excess > 0.0 ? half * s.loose / (excess + s.loose) : cut.total[c];
+        const double half = 0.5 * cut.total[c], excess = s.exact_at_half - half, lost = s.loose + s.exact_loss;
+        const double below = excess > 0.0 ? half * lost / (excess + lost) : cut.total[c];
         error[c] = below > above ? below : above;
     }
     return error;

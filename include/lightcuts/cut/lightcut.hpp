@@ -20,7 +20,7 @@ struct CutResult {
     /// Sum of the error bounds of the cut's clusters, absolute radiance; infinite if a cluster that may touch the
     /// receiver is left on the cut. With automatic clamping it includes what errors do to the threshold.
     S error_bound{};
-    /// Radiance that no clamped light exceeded; infinite if there was no limit.
+    /// Radiance that no clamped light exceeded; infinite if there was no limit, as in automatic clamping of one or two.
     S clamp_threshold = make_spectrum<S>([](int) { return std::numeric_limits<float>::infinity(); });
     std::uint32_t cut_size = 0;  ///< clusters on the cut, those that cannot contribute too
     std::uint32_t queries = 0;   ///< shadow rays asked of the oracle
@@ -75,13 +75,32 @@ CutResult<S> cut_result_of(const Refinement<CutNode<S, Clamps>>& refinement, std
 template <Spectrum S>
 ClampedTotal<S> clamped_total(const Refinement<CutNode<S, true>>& refinement, const CutTotals<S, true>& totals) {
     const ClampOptions& clamp = totals.clamp.options;
-    // Converged refinements have found it.
-    if (!clamp.is_automatic() || refinement.stop_reason() == StopReason::converged) {
-        return {totals.total, totals.clamp.threshold};
-    }
+    // Converged refinements have found it, unless they had lights in mind which did not arrive.
+    const bool is_found = refinement.stop_reason() == StopReason::converged && totals.clamp.is_final;
+    if (!clamp.is_automatic() || is_found) { return {totals.total, totals.clamp.threshold, totals.clamp.ratio}; }
     return clamped_total<S>(clamp, {}, totals.total, 1e-6, [&](auto&& f) {
         refinement.for_each([&](const auto& n) { f(n.estimate, static_cast<double>(n.lights)); });
     });
+}
+
+/// How many clamped lights arrive: those that were looked at for certain, and others where there are bounds.
+template <Spectrum S>
+ArrivingLights<S> arriving_lights(const Refinement<CutNode<S, true>>& refinement, const ClampOptions& clamp) {
+    ArrivingLights<S> arriving{LightCount<S>(clamp), LightCount<S>(clamp)};
+    bool known = false, most_known = false;
+    refinement.for_each([&](const CutNode<S, true>& n) {
+        if (known || !(n.lights < std::numeric_limits<float>::infinity())) return;
+        const bool single = n.lights == 1.0f;
+        if (!most_known) {
+            arriving.most.add(single ? n.estimate : n.bound, static_cast<double>(n.lights));
+            most_known = arriving.most.is_known();
+        }
+        if (single || n.all_colours) {
+            arriving.least.add(n.estimate, 1.0);
+            known = arriving.least.is_known();
+        }
+    });
+    return arriving;
 }
 
 template <Spectrum S>
@@ -101,18 +120,20 @@ CutResult<S> cut_result(const Refinement<CutNode<S, true>>& refinement, const Cu
     const ClampOptions& clamp = totals.clamp.options;
     const ClampedTotal<S> clamped = clamped_total(refinement, totals);
     ChannelSums<S> radiance{}, bound{};
-    refinement.for_each([&](const CutNode<S, true>& n) {
-        for (std::size_t c = 0; c < radiance.size(); ++c) {
-            const double most = static_cast<double>(n.lights) * clamped.threshold[c];
-            const double e = static_cast<double>(channel(n.estimate, static_cast<int>(c)));
-            const double b = static_cast<double>(channel(n.bound, static_cast<int>(c)));
-            radiance[c] += e > most ? most : e;
-            bound[c] += b > most ? most : b;
-        }
-    });
     if (clamp.is_automatic()) {
-        bound = clamped_error<S>(clamp, clamped, [&](auto&& f) {
+        radiance = clamped.total;
+        bound = clamped_error<S>(clamp, clamped, arriving_lights(refinement, clamp), [&](auto&& f) {
             refinement.for_each([&](const auto& n) { f(n.estimate, n.bound, static_cast<double>(n.lights)); });
+        });
+    } else {
+        refinement.for_each([&](const CutNode<S, true>& n) {
+            for (std::size_t c = 0; c < radiance.size(); ++c) {
+                const double most = static_cast<double>(n.lights) * clamped.threshold[c];
+                const double e = static_cast<double>(channel(n.estimate, static_cast<int>(c)));
+                const double b = static_cast<double>(channel(n.bound, static_cast<int>(c)));
+                radiance[c] += e > most ? most : e;
+                bound[c] += b > most ? most : b;
+            }
         });
     }
     CutResult<S> result = cut_result_of(refinement, totals.queries, radiance, bound);

@@ -19,6 +19,7 @@ namespace lightcuts {
 
 namespace detail {
 struct LightCountTag {};
+struct ColoursTag {};
 struct ClampTag {};
 }  // namespace detail
 
@@ -27,6 +28,7 @@ struct ClampTag {};
 template <Spectrum S, bool Clamps = false>
 struct CutNode {
     using light_count = std::conditional_t<Clamps, float, detail::Absent<detail::LightCountTag>>;
+    using colours = std::conditional_t<Clamps, bool, detail::Absent<detail::ColoursTag>>;
 
     std::uint32_t node = 0;            ///< in its tree
     std::uint32_t representative = 0;  ///< leaf of the tree that stands for the cluster
@@ -37,6 +39,8 @@ struct CutNode {
     std::uint8_t kind = 0;             ///< tree of the forest
     bool bounded = false;              ///< `unit_bound` is the cluster's own
     bool queried = false;              ///< `terms` waits for the representative, or for its shadow ray
+    /// The representative shines in every channel; the cluster may shine in others than it.
+    [[no_unique_address]] colours all_colours{};
     /// Of the cluster; infinite if its kind is not clamped.
     [[no_unique_address]] light_count lights{};
 };
@@ -47,7 +51,10 @@ struct CutClamp {
     ClampOptions options;
     detail::ChannelSums<S> threshold{};  ///< radiance: the most that a light adds
     detail::ChannelSums<S> share{};      ///< the most that a light's error adds to a priority
+    detail::ChannelSums<S> least{};      ///< least shares since the last mark
     detail::ChannelSums<S> total{};      ///< of which the threshold was made
+    detail::ChannelSums<S> ratio{};      ///< by the lights that have arrived; infinite while there are none
+    bool is_final = false;               ///< the threshold was made by that ratio, not with others in mind
 };
 
 /// Radiance sums of one receiver's cut, in double.
@@ -94,6 +101,7 @@ public:
         if constexpr (clamps) {
             totals_.clamp.options = options_.clamp;
             totals_.clamp.threshold.fill(static_cast<double>(options_.clamp.radiance));
+            totals_.clamp.ratio.fill(std::numeric_limits<double>::infinity());
             set_shares();
         }
         const bool few = has_few_lights();
@@ -212,26 +220,35 @@ public:
         weigh();
     }
 
-    /// Finds the final total under its own threshold; true if the running total was so much larger that clusters may
-    /// have been left too coarse.
+    /// Finds the final total under its own threshold; true if the running total was so much larger, or lights thought
+    /// to arrive so many more, that clusters may have been left too coarse.
     template <class Visit>
     bool revise(const Visit& visit) requires clamps {
         if (!options_.clamp.is_automatic()) return false;
-        const auto before = totals_.weight;
+        const auto weight = totals_.weight, share = totals_.clamp.share;
         clamp_anew(visit, 1e-6);
         weigh();
         bool grown = false;
-        for (std::size_t c = 0; c < before.size(); ++c) grown = grown || totals_.weight[c] > 1.01 * before[c];
+        for (std::size_t c = 0; c < weight.size(); ++c) {
+            grown = grown || totals_.weight[c] > 1.01 * weight[c] || totals_.clamp.share[c] > 1.01 * share[c];
+        }
         return grown;
     }
 
-    void mark() { totals_.least = totals_.weight; }
+    void mark() {
+        totals_.least = totals_.weight;
+        if constexpr (clamps) totals_.clamp.least = totals_.clamp.share;
+    }
 
     double growth() const {
         double largest = 0.0;
-        for (std::size_t c = 0; c < totals_.weight.size(); ++c) {
-            const double factor = totals_.weight[c] / totals_.least[c];
+        const auto grows = [&largest](double now, double least) {
+            const double factor = now / least;
             largest = factor > largest ? factor : largest;
+        };
+        for (std::size_t c = 0; c < totals_.weight.size(); ++c) {
+            grows(totals_.weight[c], totals_.least[c]);
+            if constexpr (clamps) grows(totals_.clamp.share[c], totals_.clamp.least[c]);
         }
         return largest == largest ? largest : std::numeric_limits<double>::infinity();
     }
@@ -348,7 +365,10 @@ private:
         for (int i = 0; i < count; ++i) {
             node& n = *nodes[static_cast<std::size_t>(i)];
             n.terms = terms[static_cast<std::size_t>(i)];
-            if constexpr (ClampedLight<L>) n.terms = detail::at_most(n.terms, options_.clamp.terms);
+            if constexpr (ClampedLight<L>) {
+                n.terms = detail::at_most(n.terms, options_.clamp.terms);
+                n.all_colours = channel_min(tree.clusters()[n.representative].intensity) > 0.0f;
+            }
             n.queried = !is_black(n.terms);
             if (!n.queried) continue;
             n.estimate = finite_product(n.terms, tree.clusters()[n.node].intensity);
@@ -376,6 +396,7 @@ private:
         node& n = add_node(tree, parent.kind, index, parent.unit_bound, out);
         n.representative = parent.representative;
         n.terms = parent.terms;
+        if constexpr (clamps) n.all_colours = parent.all_colours;
         n.estimate = finite_product(n.terms, tree.clusters()[index].intensity);
     }
 
@@ -475,34 +496,77 @@ private:
 
     /// A light's share in the total is known also where the total is not, since it has been dark so far.
     void set_shares() requires clamps {
+        CutClamp<S>& clamp = totals_.clamp;
         const double limit = static_cast<double>(options_.clamp.radiance);
-        const double ratio = options_.clamp.is_automatic() ? static_cast<double>(options_.clamp.ratio)
-                                                           : std::numeric_limits<double>::infinity();
         for (std::size_t c = 0; c < totals_.weight.size(); ++c) {
             const double share = limit * totals_.weight[c];
-            totals_.clamp.share[c] = share < ratio ? share : ratio;
+            clamp.share[c] = share < clamp.ratio[c] ? share : clamp.ratio[c];
+            clamp.least[c] = clamp.share[c] < clamp.least[c] ? clamp.share[c] : clamp.least[c];
         }
     }
 
-    /// True if the total has left the neighbourhood of the one that the threshold was made of.
+    /// True if the total has left the neighbourhood of the one that the threshold was made of. Where few lights have
+    /// arrived, each more of them changes the ratio: a small neighbourhood.
     bool has_moved() const requires clamps {
         if (!options_.clamp.is_automatic()) return false;
         bool moved = false;
         for (std::size_t c = 0; c < totals_.total.size(); ++c) {
             const double now = totals_.total[c], then = totals_.clamp.total[c];
-            moved = moved || now > 1.25 * then || now < 0.8 * then;
+            const bool few = totals_.clamp.ratio[c] > static_cast<double>(options_.clamp.ratio);
+            moved = moved || now > 1.25 * then || now < 0.8 * then || (few && now != then);
         }
         return moved;
     }
 
+    /// Solves for total and threshold as if, of the lights in clusters that are dark so far, those were yet to arrive
+    /// that may: one of the clusters' mean size. A spike that is found early would else be most of the total, by which
+    /// all that shows it to be a spike is too little to be looked for.
     template <class Visit>
     void clamp_anew(const Visit& visit, double tolerance) requires clamps {
-        const auto solved = detail::clamped_total<S>(options_.clamp, {}, totals_.total, tolerance, [&](auto&& f) {
+        CutClamp<S>& clamp = totals_.clamp;
+        const detail::ChannelSums<S> cautious = count_anew(visit);
+        const auto solved = detail::clamped_total<S>(
+            options_.clamp, cautious, {}, totals_.total, tolerance,
+            [&](auto&& f) { visit([&](const node& n) { f(n.estimate, static_cast<double>(n.lights)); }); });
+        clamp.is_final = cautious == clamp.ratio;
+        totals_.total = clamp.total = solved.total;
+        clamp.threshold = solved.threshold;
+        for (std::size_t c = 0; c < cautious.size(); ++c) {
+            // Lights that arrive next show themselves.
+            if (solved.total[c] == 0.0) clamp.threshold[c] = static_cast<double>(options_.clamp.radiance);
+        }
+        totals_.largest = totals_.total;
+    }
+
+    /// Finds the ratio by the lights that have arrived; returns that with those which may yet.
+    template <class Visit>
+    detail::ChannelSums<S> count_anew(const Visit& visit) requires clamps {
+        auto& ratio = totals_.clamp.ratio;
+        ratio = detail::effective_ratios<S>(options_.clamp, [&](auto&& f) {
             visit([&](const node& n) { f(n.estimate, static_cast<double>(n.lights)); });
         });
-        totals_.total = totals_.clamp.total = solved.total;
-        totals_.clamp.threshold = solved.threshold;
-        totals_.largest = totals_.total;
+        bool many = true;
+        for (const double r : ratio) many = many && r == static_cast<double>(options_.clamp.ratio);
+        if (many) return ratio;
+        detail::ChannelSums<S> lights{}, dark{}, dark_clusters{};
+        visit([&](const node& n) {
+            if (!(n.lights < std::numeric_limits<float>::infinity())) return;
+            for (std::size_t c = 0; c < dark.size(); ++c) {
+                const int i = static_cast<int>(c);
+                const auto count = static_cast<double>(n.lights);
+                if (channel(n.estimate, i) > 0.0f) {
+                    lights[c] += count;
+                } else if (channel(n.bound, i) > 0.0f) {
+                    dark[c] += count;
+                    dark_clusters[c] += 1.0;
+                }
+            }
+        });
+        detail::ChannelSums<S> cautious{};
+        for (std::size_t c = 0; c < cautious.size(); ++c) {
+            cautious[c] = detail::effective_ratio(options_.clamp, lights[c] + dark[c] / (dark_clusters[c] + 1.0));
+        }
+        return cautious;
     }
 
     double density(const node& n) const {
