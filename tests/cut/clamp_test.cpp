@@ -206,6 +206,17 @@ TEST(ClampedTotal, SolvesItsEquationFromAnyGuess) {
     }
 }
 
+// Half of the lights at the threshold, the others next to nothing: every smaller total is nearly a solution too.
+TEST(ClampedTotal, IsTheLargestOfWhatSolvesTheEquation) {
+    for (const int n : {8, 16, 64, 128}) {
+        std::vector<Contribution> all(static_cast<std::size_t>(n / 2), {1.0f, 1.0});
+        all.resize(static_cast<std::size_t>(n), {1e-9f, 1.0});
+        for (const double guess : {0.0, 0.03 * n, 0.3 * n, 0.5 * n, 1e9}) {
+            EXPECT_NEAR(solve(automatic_clamping, 0.0, all, guess, 1e-2).total[0], 0.5 * n, 1e-5 * n) << guess;
+        }
+    }
+}
+
 /// A node of a cut and what it stands for.
 struct Node {
     float estimate, bound;

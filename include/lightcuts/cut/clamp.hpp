@@ -69,7 +69,7 @@ inline double clamp_threshold(const ClampOptions& clamp, double ratio, double to
 template <Spectrum S>
 struct LightCount {
     ChannelSums<S> lights{};
-    double many;  ///< whatever is rounded
+    double many;  ///< 2 / ratio, and some for rounding
 
     explicit LightCount(const ClampOptions& clamp) : many(2.000001 / static_cast<double>(clamp.ratio)) {}
 
@@ -140,7 +140,8 @@ ClampedTotal<S> clamped_total(const ClampOptions& clamp, const ChannelSums<S>& r
                 next = result.total[c];
             } else if (slope < 1.0) {
                 next = (moves ? rest[c] : result.total[c]) / (1.0 - slope);
-            } else if (result.total[c] - guess[c] <= tolerance * guess[c]) {
+            } else if (step > 0 && result.total[c] - guess[c] <= tolerance * guess[c]) {
+                // Rounding. Only the first guess can be far left, also where the sum grows just as the total does.
                 next = guess[c];
             }
             const double moved = next - guess[c];

@@ -20,7 +20,8 @@ struct CutResult {
     /// Sum of the error bounds of the cut's clusters, absolute radiance; infinite if a cluster that may touch the
     /// receiver is left on the cut. With automatic clamping it includes what errors do to the threshold.
     S error_bound{};
-    /// Radiance that no clamped light exceeded; infinite if there was no limit, as in automatic clamping of one or two.
+    /// Radiance that no clamped light exceeded; infinite if there was no limit, as in automatic clamping of two or
+    /// fewer.
     S clamp_threshold = make_spectrum<S>([](int) { return std::numeric_limits<float>::infinity(); });
     std::uint32_t cut_size = 0;  ///< clusters on the cut, those that cannot contribute too
     std::uint32_t queries = 0;   ///< shadow rays asked of the oracle

@@ -243,14 +243,14 @@ public:
     double growth() const {
         double largest = 0.0;
         const auto grows = [&largest](double now, double least) {
-            const double factor = now / least;
+            const double factor = now / least;  // NaN: zero or infinite as before
             largest = factor > largest ? factor : largest;
         };
         for (std::size_t c = 0; c < totals_.weight.size(); ++c) {
             grows(totals_.weight[c], totals_.least[c]);
             if constexpr (clamps) grows(totals_.clamp.share[c], totals_.clamp.least[c]);
         }
-        return largest == largest ? largest : std::numeric_limits<double>::infinity();
+        return largest;
     }
 
     /// What a cluster may be off by, as a share of the total. Clamping decides whether it is refined. In which order is
@@ -519,8 +519,8 @@ private:
     }
 
     /// Solves for total and threshold as if, of the lights in clusters that are dark so far, those were yet to arrive
-    /// that may: one of the clusters' mean size. A spike that is found early would else be most of the total, by which
-    /// all that shows it to be a spike is too little to be looked for.
+    /// that may: about one of the clusters' mean size, and half of it if there is but one. A spike that is found early
+    /// would else be most of the total, by which all that shows it to be a spike is too little to be looked for.
     template <class Visit>
     void clamp_anew(const Visit& visit, double tolerance) requires clamps {
         CutClamp<S>& clamp = totals_.clamp;
