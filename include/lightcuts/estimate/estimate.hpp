@@ -22,7 +22,8 @@ namespace lightcuts {
 template <Spectrum S>
 struct Estimate {
     S radiance{};
-    /// Radiance that no clamped light exceeded; infinite if there was no limit, as in automatic clamping of two or fewer.
+    /// Radiance that no clamped light exceeded; infinite if there was no limit, as in automatic clamping of two or
+    /// fewer.
     S clamp_threshold = make_spectrum<S>([](int) { return std::numeric_limits<float>::infinity(); });
     std::uint32_t queries = 0;  ///< shadow rays asked of the oracle
 };
