@@ -96,7 +96,7 @@ ArrivingLights<S> arriving_lights(const Refinement<CutNode<S, true>>& refinement
             arriving.most.add(single ? n.estimate : n.bound, static_cast<double>(n.lights));
             most_known = arriving.most.is_known();
         }
-        if (single || n.all_colours) {
+        if (single || n.all_channels) {
             arriving.least.add(n.estimate, 1.0);
             known = arriving.least.is_known();
         }

@@ -19,7 +19,7 @@ namespace lightcuts {
 
 namespace detail {
 struct LightCountTag {};
-struct ColoursTag {};
+struct AllChannelsTag {};
 struct ClampTag {};
 }  // namespace detail
 
@@ -28,7 +28,7 @@ struct ClampTag {};
 template <Spectrum S, bool Clamps = false>
 struct CutNode {
     using light_count = std::conditional_t<Clamps, float, detail::Absent<detail::LightCountTag>>;
-    using colours = std::conditional_t<Clamps, bool, detail::Absent<detail::ColoursTag>>;
+    using channel_mark = std::conditional_t<Clamps, bool, detail::Absent<detail::AllChannelsTag>>;
 
     std::uint32_t node = 0;            ///< in its tree
     std::uint32_t representative = 0;  ///< leaf of the tree that stands for the cluster
@@ -40,7 +40,7 @@ struct CutNode {
     bool bounded = false;              ///< `unit_bound` is the cluster's own
     bool queried = false;              ///< `terms` waits for the representative, or for its shadow ray
     /// The representative shines in every channel; the cluster may shine in others than it.
-    [[no_unique_address]] colours all_colours{};
+    [[no_unique_address]] channel_mark all_channels{};
     /// Of the cluster; infinite if its kind is not clamped.
     [[no_unique_address]] light_count lights{};
 };
@@ -367,7 +367,7 @@ private:
             n.terms = terms[static_cast<std::size_t>(i)];
             if constexpr (ClampedLight<L>) {
                 n.terms = detail::at_most(n.terms, options_.clamp.terms);
-                n.all_colours = channel_min(tree.clusters()[n.representative].intensity) > 0.0f;
+                n.all_channels = channel_min(tree.clusters()[n.representative].intensity) > 0.0f;
             }
             n.queried = !is_black(n.terms);
             if (!n.queried) continue;
@@ -396,7 +396,7 @@ private:
         node& n = add_node(tree, parent.kind, index, parent.unit_bound, out);
         n.representative = parent.representative;
         n.terms = parent.terms;
-        if constexpr (clamps) n.all_colours = parent.all_colours;
+        if constexpr (clamps) n.all_channels = parent.all_channels;
         n.estimate = finite_product(n.terms, tree.clusters()[index].intensity);
     }
 
