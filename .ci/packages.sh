@@ -3,7 +3,7 @@
 
 library_packages=(g++ cmake ninja-build libglm-dev)
 renderer_packages=(
-    libembree-dev libtbb-dev libopenexr-dev libtinygltf-dev libtinyobjloader-dev libstb-dev libcli11-dev
+    libembree-dev libtbb-dev libopenexr-dev libstb-dev libcli11-dev
     nlohmann-json3-dev
 )
 test_packages=(

@@ -10,8 +10,8 @@
 #include <lightcuts/core/invalid_input.hpp>
 
 #include "builtin.hpp"
-#include "load_gltf.hpp"
-#include "load_obj.hpp"
+#include "io/load_gltf.hpp"
+#include "io/load_obj.hpp"
 #include "validate.hpp"
 
 namespace render {

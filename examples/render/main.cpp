@@ -90,6 +90,9 @@ Camera scene_camera(const Scene& scene, const std::string& name) {
         if (camera.name == name) return camera;
         names += (names.empty() ? "" : ", ") + camera.name;
     }
+    for (const Camera& camera : scene.cameras) {
+        if (camera.other_name == name) return camera;
+    }
     throw lightcuts::invalid_input(scene.name + ": no camera '" + name + "'; there is " + names);
 }
 
@@ -102,6 +105,9 @@ Camera choose_camera(const Scene& scene, const Options& options) {
         camera.vertical_fov = default_fov;
     } else {
         camera = scene_camera(scene, options.camera);
+    }
+    if (options.fov && camera.height > 0.0) {
+        throw usage_error("--fov: the camera '" + camera.name + "' is orthographic, it has no field of view");
     }
     if (options.fov) camera.vertical_fov = *options.fov;
     require_usable(camera, options.eye ? "--eye, --target" : scene.name + ": camera '" + camera.name + "'");
@@ -121,6 +127,13 @@ void save(const Outputs& outputs, const Picture& picture, const RunReport& repor
     exr.commit();
     png.commit();
     json.commit();
+}
+
+void say_what_is_left_out(const Scene& scene, const Options& options) {
+    if (options.quiet) return;
+    for (const LeftOut& item : scene.left_out) {
+        std::fprintf(stderr, "lightcuts-render: left out: %s\n", one_line(item.what + ": " + item.why).c_str());
+    }
 }
 
 /// Of an error that is that of clamping rather than of the method.
@@ -145,6 +158,7 @@ ExitStatus render_scene(Options options) {
     Stopwatch watch;
     Scene scene = prepare_scene(options);
     const Camera camera = choose_camera(scene, options);
+    say_what_is_left_out(scene, options);
     const RayScene rays(scene);
     RunReport report(options, scene, threads);
     report.seconds.load = watch.lap();
@@ -157,7 +171,7 @@ ExitStatus render_scene(Options options) {
         report.seconds.particles = watch.lap();
         const auto shader = make_shader(scene, rays, options);
         report.seconds.tree = watch.lap();
-        const View view(camera, options.width, options.height);
+        const View view(camera, scene.origin, options.width, options.height);
         const SurfaceFinder surfaces(scene, rays, shade);
         report.adaptation = options.adaptation ? *options.adaptation : measure_adaptation(view, surfaces, *shader);
         shader->adapt(report.adaptation);

@@ -40,7 +40,7 @@ std::optional<ParticleScene::Meeting> ParticleScene::intersect(const glm::vec3& 
     const SurfaceColors colors = colors_at(scene_, hit->triangle, hit->u, hit->v);
     std::optional<Meeting> result(std::in_place);
     Meeting& met = *result;
-    met.surface = surface_at(scene_, *hit, origin, direction);
+    met.surface = surface_at(scene_, *hit, direction);
     met.response = response_of(material, colors, met.surface, direction, shade_);
     met.normal = met.surface.geometric_normal;
     met.position = met.surface.leave(met.normal);

@@ -26,6 +26,7 @@ double as_written(float value) {
 }
 
 Json to_json(const glm::vec3& v) { return {as_written(v.x), as_written(v.y), as_written(v.z)}; }
+Json to_json(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
 Json path_or_null(const std::filesystem::path& path) { return path.empty() ? Json(nullptr) : Json(path.string()); }
 
@@ -48,6 +49,7 @@ Json options_json(const RunReport& report) {
     json["builder"] = o.builder;
     json["lights"] = path_or_null(o.lights);
     json["area_points"] = o.area_points;
+    json["area_lights"] = o.area_lights ? Json(*o.area_lights) : Json(nullptr);
     json["env"] = path_or_null(o.env);
     json["env_lights"] = o.env_lights;
     json["env_scale"] = as_written(o.env_scale);
@@ -144,6 +146,8 @@ Json to_json(const RunReport& report) {
     json["error_bound"] = {{"mean", finite_or_null(per(s.error_bound_sum, s.pixels))},
                            {"max", finite_or_null(s.largest_error_bound)}};
     json["clamp"] = clamp_json(report);
+    json["left_out"] = Json::array();
+    for (const LeftOut& item : scene.left_out) json["left_out"].push_back({{"what", item.what}, {"why", item.why}});
     json["peak_memory_bytes"] = peak_memory();
     json["options"] = options_json(report);
     if (report.error) json["error"] = to_json(*report.error);

@@ -33,6 +33,15 @@ float reduced(float u, Texture::Wrap wrap) {
 }  // namespace
 
 glm::vec4 Texture::sample(glm::vec2 uv) const {
+    const auto texel = [&](int i, int j) {
+        return texels[static_cast<std::size_t>(j) * static_cast<std::size_t>(width) + static_cast<std::size_t>(i)];
+    };
+    if (filter == Filter::nearest) {
+        const auto nearest = [](float u, int size, Wrap wrap) {
+            return wrapped(static_cast<int>(std::floor(reduced(u, wrap) * static_cast<float>(size))), size, wrap);
+        };
+        return texel(nearest(uv.x, width, wrap_u), nearest(uv.y, height, wrap_v));
+    }
     const float x = reduced(uv.x, wrap_u) * static_cast<float>(width) - 0.5f;
     const float y = reduced(uv.y, wrap_v) * static_cast<float>(height) - 0.5f;
     const float x_floor = std::floor(x);
@@ -41,9 +50,6 @@ glm::vec4 Texture::sample(glm::vec2 uv) const {
     const int x1 = wrapped(static_cast<int>(x_floor) + 1, width, wrap_u);
     const int y0 = wrapped(static_cast<int>(y_floor), height, wrap_v);
     const int y1 = wrapped(static_cast<int>(y_floor) + 1, height, wrap_v);
-    const auto texel = [&](int i, int j) {
-        return texels[static_cast<std::size_t>(j) * static_cast<std::size_t>(width) + static_cast<std::size_t>(i)];
-    };
     return glm::mix(glm::mix(texel(x0, y0), texel(x1, y0), x - x_floor),
                     glm::mix(texel(x0, y1), texel(x1, y1), x - x_floor), y - y_floor);
 }
@@ -91,8 +97,7 @@ Texture make_texture(std::string name, const EncodedImage& image, bool srgb) {
     return texture;
 }
 
-Texture read_texture(const std::filesystem::path& path, bool srgb) {
-    const std::string file = read_file(path);
+Texture texture_of_bytes(std::string_view file, const std::string& name, bool srgb) {
     int width = 0;
     int height = 0;
     int channels = 0;
@@ -101,11 +106,15 @@ Texture read_texture(const std::filesystem::path& path, bool srgb) {
                               &height, &channels, 4),
         stbi_image_free);
     if (!pixels) {
-        throw lightcuts::invalid_input(path.string() + ": not an image that can be read (" + stbi_failure_reason() +
+        throw lightcuts::invalid_input(name + ": not an image that can be read (" + stbi_failure_reason() +
                                        "); save it as PNG or JPEG");
     }
     const std::size_t bytes = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4;
-    return make_texture(path.filename().string(), {width, height, 4, 8, pixels.get(), bytes}, srgb);
+    return make_texture(name, {width, height, 4, 8, pixels.get(), bytes}, srgb);
+}
+
+Texture read_texture(const std::filesystem::path& path, bool srgb) {
+    return texture_of_bytes(read_file(path), path.string(), srgb);
 }
 
 }  // namespace render

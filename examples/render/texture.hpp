@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include "scene.hpp"
 
@@ -26,7 +27,10 @@ struct EncodedImage {
 /// throws: invalid_input naming `name` when the pixels are missing or of an unknown layout.
 Texture make_texture(std::string name, const EncodedImage& image, bool srgb);
 
-/// Reads a PNG, JPEG, TGA or BMP file. throws: invalid_input.
+/// The texture in a file's bytes: PNG, JPEG, TGA or BMP. throws: invalid_input naming `name`.
+Texture texture_of_bytes(std::string_view bytes, const std::string& name, bool srgb);
+
+/// Reads such a file. throws: invalid_input.
 Texture read_texture(const std::filesystem::path& path, bool srgb);
 
 }  // namespace render

@@ -51,7 +51,7 @@ TEST(Builtin, HallIsAsStated) {
         for (const std::uint32_t t : panel.triangles) EXPECT_LT(s.positions[s.triangles[t].x].y, 6.0f);
     }
     EXPECT_EQ(s.light_count(), 0u);
-    render::add_emitter_lights(s, 64);
+    render::add_emitter_lights(s, {.points = 64});
     EXPECT_EQ(s.oriented.size(), 72u * 64u);
     for (const auto& light : s.oriented) EXPECT_EQ(light.axis, glm::vec3(0, -1, 0));
     const bool has_glossy = std::any_of(s.materials.begin(), s.materials.end(),
