@@ -12,6 +12,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include "io/printable.hpp"
 #include "text_file.hpp"
 
 namespace render {

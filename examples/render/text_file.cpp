@@ -89,6 +89,16 @@ std::string_view trim(std::string_view text) {
     return text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
 }
 
+std::vector<std::string_view> split_words(std::string_view text) {
+    std::vector<std::string_view> words;
+    for (text = trim(text); !text.empty(); text = trim(text)) {
+        const std::size_t end = text.find_first_of(" \t\r");
+        words.push_back(text.substr(0, end));
+        text.remove_prefix(end == std::string_view::npos ? text.size() : end);
+    }
+    return words;
+}
+
 std::string_view take_line(std::string_view& rest) {
     const std::size_t end = rest.find_first_of("\n\r");
     const std::string_view line = rest.substr(0, end);
@@ -98,21 +108,6 @@ std::string_view take_line(std::string_view& rest) {
         rest.remove_prefix(end + (rest.substr(end).starts_with("\r\n") ? 2 : 1));
     }
     return line;
-}
-
-std::string printable(std::string_view text) {
-    constexpr std::size_t longest = 80;
-    constexpr char digits[] = "0123456789abcdef";
-    std::string result;
-    for (const char c : text.substr(0, longest)) {
-        const auto byte = static_cast<unsigned char>(c);
-        if (byte >= 32 && byte != 127) {
-            result += c;
-        } else {
-            result += {'\\', 'x', digits[byte / 16], digits[byte % 16]};
-        }
-    }
-    return text.size() > longest ? result + "..." : result;
 }
 
 }  // namespace render

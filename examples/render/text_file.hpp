@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace render {
 
@@ -24,8 +25,8 @@ std::optional<double> parse_number(std::string_view text);
 /// `text` without spaces, tabs and carriage returns at its ends.
 std::string_view trim(std::string_view text);
 
-/// What stands in a file as a message can quote it: at most 80 characters, none of which controls a terminal.
-std::string printable(std::string_view text);
+/// The parts of `text` between spaces and tabs.
+std::vector<std::string_view> split_words(std::string_view text);
 
 /// Takes the first line off `rest`, without its end: LF, CR LF or CR.
 std::string_view take_line(std::string_view& rest);

@@ -1,4 +1,4 @@
-#include "file_source.hpp"
+#include "io/file_source.hpp"
 
 #include <algorithm>
 #include <cctype>

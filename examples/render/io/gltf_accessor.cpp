@@ -1,4 +1,4 @@
-#include "gltf_accessor.hpp"
+#include "io/gltf_accessor.hpp"
 
 #include <algorithm>
 #include <cstdint>

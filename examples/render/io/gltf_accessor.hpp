@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "gltf_document.hpp"
+#include "io/gltf_document.hpp"
 
 namespace render {
 

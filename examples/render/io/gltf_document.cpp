@@ -1,4 +1,4 @@
-#include "gltf_document.hpp"
+#include "io/gltf_document.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -7,8 +7,9 @@
 
 #include <lightcuts/core/invalid_input.hpp>
 
+#include "io/printable.hpp"
+#include "io/uri.hpp"
 #include "text_file.hpp"
-#include "uri.hpp"
 
 namespace render {
 namespace {

@@ -11,9 +11,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "file_source.hpp"
-#include "json_object.hpp"
-#include "left_out.hpp"
+#include "io/file_source.hpp"
+#include "io/json_object.hpp"
+#include "io/left_out.hpp"
 
 namespace render {
 

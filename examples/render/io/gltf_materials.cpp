@@ -1,4 +1,4 @@
-#include "gltf_materials.hpp"
+#include "io/gltf_materials.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,9 +7,10 @@
 
 #include <lightcuts/core/invalid_input.hpp>
 
+#include "io/printable.hpp"
+#include "io/uri.hpp"
 #include "text_file.hpp"
 #include "texture.hpp"
-#include "uri.hpp"
 
 namespace render {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "gltf_document.hpp"
+#include "io/gltf_document.hpp"
 #include "scene.hpp"
 
 namespace render {

@@ -1,11 +1,11 @@
-#include "gltf_mesh.hpp"
+#include "io/gltf_mesh.hpp"
 
 #include <limits>
 #include <utility>
 
 #include <lightcuts/core/invalid_input.hpp>
 
-#include "gltf_accessor.hpp"
+#include "io/gltf_accessor.hpp"
 
 namespace render {
 namespace {

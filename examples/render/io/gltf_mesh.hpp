@@ -11,9 +11,9 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
-#include "gltf_document.hpp"
-#include "gltf_materials.hpp"
-#include "left_out.hpp"
+#include "io/gltf_document.hpp"
+#include "io/gltf_materials.hpp"
+#include "io/left_out.hpp"
 
 namespace render {
 

@@ -1,4 +1,4 @@
-#include "gltf_nodes.hpp"
+#include "io/gltf_nodes.hpp"
 
 #include <algorithm>
 #include <string>
@@ -11,7 +11,7 @@
 #include <glm/mat3x3.hpp>
 #include <lightcuts/core/invalid_input.hpp>
 
-#include "gltf_accessor.hpp"
+#include "io/gltf_accessor.hpp"
 
 namespace render {
 namespace {

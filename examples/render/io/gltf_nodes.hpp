@@ -7,8 +7,8 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
-#include "gltf_document.hpp"
-#include "left_out.hpp"
+#include "io/gltf_document.hpp"
+#include "io/left_out.hpp"
 
 namespace render {
 

@@ -1,4 +1,4 @@
-#include "gltf_pose.hpp"
+#include "io/gltf_pose.hpp"
 
 #include <algorithm>
 #include <string>
@@ -8,7 +8,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
-#include "gltf_accessor.hpp"
+#include "io/gltf_accessor.hpp"
 
 namespace render {
 namespace {

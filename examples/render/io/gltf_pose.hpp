@@ -6,9 +6,9 @@
 
 #include <glm/mat4x4.hpp>
 
-#include "gltf_document.hpp"
-#include "gltf_mesh.hpp"
-#include "gltf_nodes.hpp"
+#include "io/gltf_document.hpp"
+#include "io/gltf_mesh.hpp"
+#include "io/gltf_nodes.hpp"
 
 namespace render {
 

@@ -1,4 +1,4 @@
-#include "json_object.hpp"
+#include "io/json_object.hpp"
 
 #include <cmath>
 #include <limits>

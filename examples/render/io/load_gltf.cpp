@@ -1,4 +1,4 @@
-#include "load_gltf.hpp"
+#include "io/load_gltf.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,13 +15,14 @@
 #include <glm/matrix.hpp>
 #include <lightcuts/core/invalid_input.hpp>
 
-#include "gltf_document.hpp"
-#include "gltf_materials.hpp"
-#include "gltf_mesh.hpp"
-#include "gltf_nodes.hpp"
-#include "gltf_pose.hpp"
+#include "io/gltf_document.hpp"
+#include "io/gltf_materials.hpp"
+#include "io/gltf_mesh.hpp"
+#include "io/gltf_nodes.hpp"
+#include "io/gltf_pose.hpp"
+#include "io/printable.hpp"
+#include "io/world_origin.hpp"
 #include "text_file.hpp"
-#include "world_origin.hpp"
 
 namespace render {
 namespace {

@@ -1,4 +1,4 @@
-#include "load_obj.hpp"
+#include "io/load_obj.hpp"
 
 #include <array>
 #include <limits>
@@ -8,11 +8,11 @@
 
 #include <glm/geometric.hpp>
 
-#include "obj_geometry.hpp"
-#include "obj_materials.hpp"
-#include "polygon.hpp"
+#include "io/obj_geometry.hpp"
+#include "io/obj_materials.hpp"
+#include "io/polygon.hpp"
+#include "io/world_origin.hpp"
 #include "text_file.hpp"
-#include "world_origin.hpp"
 
 namespace render {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "file_source.hpp"
+#include "io/file_source.hpp"
 #include "scene.hpp"
 
 namespace render {

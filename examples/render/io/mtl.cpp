@@ -1,4 +1,4 @@
-#include "mtl.hpp"
+#include "io/mtl.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,8 @@
 
 #include <glm/common.hpp>
 
-#include "obj_lines.hpp"
+#include "io/obj_lines.hpp"
+#include "io/printable.hpp"
 #include "text_file.hpp"
 
 namespace render {

@@ -1,4 +1,4 @@
-#include "obj_geometry.hpp"
+#include "io/obj_geometry.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,8 @@
 #include <map>
 #include <utility>
 
-#include "obj_lines.hpp"
+#include "io/obj_lines.hpp"
+#include "io/printable.hpp"
 #include "text_file.hpp"
 
 namespace render {

@@ -10,7 +10,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "left_out.hpp"
+#include "io/left_out.hpp"
 
 namespace render {
 

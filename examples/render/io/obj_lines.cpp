@@ -1,4 +1,4 @@
-#include "obj_lines.hpp"
+#include "io/obj_lines.hpp"
 
 #include "text_file.hpp"
 

@@ -1,12 +1,13 @@
-#include "obj_materials.hpp"
+#include "io/obj_materials.hpp"
 
 #include <algorithm>
 
 #include <glm/common.hpp>
 #include <lightcuts/core/invalid_input.hpp>
 
+#include "io/obj_lines.hpp"
+#include "io/printable.hpp"
 #include "luminance.hpp"
-#include "obj_lines.hpp"
 #include "text_file.hpp"
 #include "texture.hpp"
 

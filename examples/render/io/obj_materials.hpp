@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "file_source.hpp"
-#include "mtl.hpp"
-#include "obj_geometry.hpp"
+#include "io/file_source.hpp"
+#include "io/mtl.hpp"
+#include "io/obj_geometry.hpp"
 #include "scene.hpp"
 
 namespace render {

@@ -1,4 +1,4 @@
-#include "uri.hpp"
+#include "io/uri.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "world_origin.hpp"
+#include "io/world_origin.hpp"
 
 #include <algorithm>
 #include <cmath>
