@@ -38,7 +38,11 @@ struct Checker {
     }
 
     void sizes() const {
-        if (scene.triangles.empty()) fail("the scene has no triangles; there is nothing to render");
+        if (scene.triangles.empty()) {
+            std::string why = "the scene has no triangles; there is nothing to render";
+            for (const LeftOut& item : scene.left_out) why += "; left out: " + item.what;
+            fail(why);
+        }
         if (scene.triangle_material.size() != scene.triangles.size()) fail("not one material index per triangle");
         if (!scene.normals.empty() && scene.normals.size() != scene.positions.size()) {
             fail("not one normal per vertex; give all vertices a normal or none");

@@ -148,7 +148,9 @@ void GltfDocument::parse_json(std::string_view text) {
 
 void GltfDocument::require_version() const {
     const JsonObject asset = root().object("asset");
-    const std::string version = asset.text("version");
+    const Json* written = asset.find("version");
+    // glTF 1.0 allowed a number.
+    const std::string version = written && written->is_number() ? written->dump() : asset.text("version");
     if (version.empty()) throw invalid_input("not a glTF 2.0 file (asset.version is missing)");
     if (!version.starts_with("2.")) throw invalid_input("is glTF " + printable(version) + "; convert it to glTF 2.0");
     const std::string least = asset.text("minVersion", "2.0");

@@ -32,7 +32,7 @@ std::optional<std::size_t> whole(const Json& value) {
 }  // namespace
 
 JsonObject::JsonObject(const Json& json, std::string name) : json_(&json), name_(std::move(name)) {
-    if (!json.is_object()) fail("is not an object; correct it");
+    if (!json.is_object()) throw lightcuts::invalid_input(name_ + " is not an object; correct it");
 }
 
 void JsonObject::fail(const std::string& problem) const { throw lightcuts::invalid_input(name_ + ": " + problem); }
@@ -140,13 +140,12 @@ const Json& JsonObject::list(const char* key) const {
 
 JsonObject JsonObject::object(const char* key) const {
     const Json* value = find(key);
+    if (value && !value->is_object()) refuse(key, "an object");
     return {value ? *value : empty_object, name_ + ": " + key};
 }
 
 std::optional<JsonObject> JsonObject::extension(const char* key) const {
-    const Json* all = find("extensions");
-    if (!all) return std::nullopt;
-    const Json* value = JsonObject(*all, name_ + ": extensions").find(key);
+    const Json* value = object("extensions").find(key);
     if (!value) return std::nullopt;
     if (!value->is_object()) refuse(key, "an object");
     return JsonObject(*value, name_);

@@ -74,7 +74,8 @@ private:
         const std::uint32_t material = materials_.in_scene(face.material);
         const std::span<const ObjCorner> corners(&geometry_.corners[face.first], face.count);
         const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
-            scene_.triangles.emplace_back(vertex(corners[a]), vertex(corners[b]), vertex(corners[c]));
+            // In braces, so that vertices are numbered in this order by every compiler.
+            scene_.triangles.push_back(glm::uvec3{vertex(corners[a]), vertex(corners[b]), vertex(corners[c])});
             scene_.triangle_material.push_back(material);
         };
         if (face.count == 3) {

@@ -66,7 +66,7 @@ class MtlParser {
 public:
     MtlParser(const std::filesystem::path& path, std::string_view text) {
         library_.path = path;
-        ObjLines lines(text);
+        ObjLines lines(path, text);
         ObjStatement statement;
         while (lines.next(statement)) {
             line_ = statement.line;

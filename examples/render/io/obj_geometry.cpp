@@ -45,7 +45,7 @@ struct CornerForm {
 class ObjParser {
 public:
     ObjParser(const std::filesystem::path& path, std::string_view text) : path_(path) {
-        ObjLines lines(text);
+        ObjLines lines(path, text);
         ObjStatement statement;
         while (lines.next(statement)) {
             line_ = statement.line;

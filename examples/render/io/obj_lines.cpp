@@ -1,5 +1,7 @@
 #include "io/obj_lines.hpp"
 
+#include <lightcuts/core/invalid_input.hpp>
+
 #include "text_file.hpp"
 
 namespace render {
@@ -15,7 +17,9 @@ std::string_view trimmed(std::string_view text) {
 
 }  // namespace
 
-ObjLines::ObjLines(std::string_view text) : rest_(text) {
+ObjLines::ObjLines(const std::filesystem::path& path, std::string_view text) : rest_(text) {
+    const bool is_utf16 = text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF");
+    if (is_utf16) throw lightcuts::invalid_input(path.string() + ": is UTF-16 text; save it as UTF-8");
     if (rest_.starts_with(byte_order_mark)) rest_.remove_prefix(byte_order_mark.size());
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,8 +20,8 @@ struct ObjStatement {
 /// skipped.
 class ObjLines {
 public:
-    /// `text` must outlive this object.
-    explicit ObjLines(std::string_view text);
+    /// `text` must outlive this object. throws: invalid_input naming `path` if it is UTF-16.
+    ObjLines(const std::filesystem::path& path, std::string_view text);
 
     /// The next statement; false at the end. Its parts refer to the text, or to this object until the next call.
     bool next(ObjStatement& statement);

@@ -71,9 +71,7 @@ ObjMaterials::ObjMaterials(std::filesystem::path obj, const ObjGeometry& geometr
 }
 
 void ObjMaterials::read_libraries(const ObjName& names) {
-    std::vector<std::filesystem::path> paths;
-    find_libraries(names, paths);
-    for (const std::filesystem::path& path : paths) {
+    for (const std::filesystem::path& path : find_libraries(names)) {
         const bool known = std::any_of(libraries_.begin(), libraries_.end(),
                                        [&](const MtlLibrary& library) { return library.path == path; });
         if (!known) read_library(path);
@@ -82,14 +80,12 @@ void ObjMaterials::read_libraries(const ObjName& names) {
 
 /// A line of `mtllib` names one file, whose name may have blanks, or several: of the ways to read it, the one whose
 /// names are longest.
-void ObjMaterials::find_libraries(const ObjName& names, std::vector<std::filesystem::path>& found) const {
+std::vector<std::filesystem::path> ObjMaterials::find_libraries(const ObjName& names) {
     const std::filesystem::path folder = obj_.parent_path();
     for (const std::string_view text : {std::string_view(names.name), without_comment(names.name)}) {
-        if (const auto path = files_.find(folder, text)) {
-            found.push_back(*path);
-            return;
-        }
+        if (const auto path = files_.find(folder, text)) return {*path};
     }
+    std::vector<std::filesystem::path> found;
     std::vector<std::string_view> words;
     split_before_comment(names.name, words);
     if (words.empty()) fail_at(obj_, names.line, "'mtllib' names no file; name one or remove the line");
@@ -100,14 +96,20 @@ void ObjMaterials::find_libraries(const ObjName& names, std::vector<std::filesys
             const char* last = words[end - 1].data() + words[end - 1].size();
             path = files_.find(folder, {words[begin].data(), static_cast<std::size_t>(last - words[begin].data())});
         }
-        if (!path) {
-            fail_at(obj_, names.line,
-                    "there is no material library '" + printable(words.size() == 1 ? words[begin] : names.name) +
-                        "'; put it beside the OBJ file or remove the line");
-        }
+        if (!path) return {library_of_same_name(names, words.size() == 1 ? words[begin] : names.name)};
         found.push_back(*path);
         begin = end + 1;
     }
+    return found;
+}
+
+/// The library that has the name of the OBJ file itself, where the one that is named is missing.
+std::filesystem::path ObjMaterials::library_of_same_name(const ObjName& names, std::string_view missing) {
+    const std::string name = "the material library '" + printable(missing) + "'";
+    const auto path = files_.find(obj_.parent_path(), obj_.stem().string() + ".mtl");
+    if (!path) fail_at(obj_, names.line, name + " is not there; put it beside the OBJ file or remove the line");
+    leave_out(scene_.left_out, name, "it is not there; " + path->filename().string() + " is used");
+    return *path;
 }
 
 void ObjMaterials::read_library(const std::filesystem::path& path) {

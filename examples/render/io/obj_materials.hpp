@@ -34,7 +34,8 @@ private:
 
     void read_libraries(const ObjName& names);
     void read_library(const std::filesystem::path& path);
-    void find_libraries(const ObjName& names, std::vector<std::filesystem::path>& found) const;
+    std::vector<std::filesystem::path> find_libraries(const ObjName& names);
+    std::filesystem::path library_of_same_name(const ObjName& names, std::string_view missing);
     const std::pair<std::size_t, std::size_t>* find(const std::string& name) const;
     std::uint32_t add(const ObjName& use);
     std::uint32_t add_default();

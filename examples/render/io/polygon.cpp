@@ -71,8 +71,7 @@ public:
         std::uint32_t left = static_cast<std::uint32_t>(points_.size());
         std::uint32_t at = 0;
         std::uint32_t since_last = 0;
-        // First only ears of some area; then flat ones; then, of an outline that crosses itself, any.
-        Demand demand = Demand::ear;
+        Demand demand = Demand::clear;
         while (left > 3) {
             if (is_acceptable(at, demand)) {
                 const std::uint32_t next = after_[at];
@@ -81,12 +80,12 @@ public:
                 // Going on beyond the neighbour makes triangles less thin than a fan's.
                 at = after_[next];
                 since_last = 0;
-                demand = Demand::ear;
+                demand = Demand::clear;
             } else {
                 at = after_[at];
                 if (++since_last > left) {
                     since_last = 0;
-                    demand = demand == Demand::ear ? Demand::flat : Demand::any;
+                    demand = static_cast<Demand>(static_cast<int>(demand) + 1);
                 }
             }
         }
@@ -95,22 +94,26 @@ public:
     }
 
 private:
-    enum class Demand { ear, flat, any };
+    /// What may be cut off, less and less choosy: ears with nothing in or at them; ears with nothing in them; ears of
+    /// no area; and, of an outline that crosses itself, any corner.
+    enum class Demand { clear, ear, flat, any };
 
     double turn_at(std::uint32_t i) const { return turn(points_[before_[i]], points_[i], points_[after_[i]]); }
 
     bool is_acceptable(std::uint32_t i, Demand demand) const {
         if (demand == Demand::any) return true;
         const double area = turn_at(i);
-        return demand == Demand::flat ? area == 0.0 : area > 0.0 && is_empty(i);
+        if (demand == Demand::flat) return area == 0.0;
+        return area > 0.0 && is_empty(i, demand == Demand::clear ? rounding : 0.0);
     }
 
-    /// No corner that bends inwards lies in the ear or on the cut. Corners where its own are, at bridges to holes, do
-    /// not count: what is beyond them does.
-    bool is_empty(std::uint32_t i) const {
+    /// No corner that bends inwards lies in the ear or on the cut, or nearer to it than `slack` of its length. Corners
+    /// where its own are, at bridges to holes, do not count: what is beyond them does.
+    bool is_empty(std::uint32_t i, double slack) const {
         const dvec2& a = points_[before_[i]];
         const dvec2& b = points_[i];
         const dvec2& c = points_[after_[i]];
+        const double least = -slack * (glm::dot(b - a, b - a) + glm::dot(c - b, c - b));
         const double low = std::min({a.x, b.x, c.x});
         const double high = std::max({a.x, b.x, c.x});
         auto candidate = std::lower_bound(inward_.begin(), inward_.end(), low,
@@ -118,7 +121,7 @@ private:
         for (; candidate != inward_.end() && points_[*candidate].x <= high; ++candidate) {
             const dvec2& p = points_[*candidate];
             if (after_[*candidate] == gone || p == a || p == b || p == c) continue;
-            if (turn(a, b, p) > 0.0 && turn(b, c, p) > 0.0 && turn(c, a, p) >= 0.0) return false;
+            if (turn(a, b, p) > least && turn(b, c, p) > least && turn(c, a, p) >= least) return false;
         }
         return true;
     }
@@ -131,6 +134,7 @@ private:
     }
 
     static constexpr std::uint32_t gone = ~0u;
+    static constexpr double rounding = 1e-9;
 
     std::vector<dvec2> points_;
     std::vector<std::uint32_t> before_;
