@@ -1,6 +1,7 @@
 #include "prepare_scene.hpp"
 
 #include "emitters.hpp"
+#include "indirect.hpp"
 #include "light_table.hpp"
 #include "load_scene.hpp"
 #include "spheres.hpp"
@@ -16,6 +17,7 @@ Scene prepare_scene(Options& options) {
     add_sphere_lights(scene, options.area_points, options.seed);
     add_surroundings(scene, options);
     require_lights(scene);
+    if (options.indirect > 0) name_amplifying_materials(scene);
     return scene;
 }
 
