@@ -11,6 +11,8 @@ test_packages=(
     libcgal-dev
 )
 
+fuzz_packages=(clang libclang-rt-14-dev)
+
 # Installs those of the named packages that are not there. Returns 1, having said which failed, if that cannot be done.
 install_packages() {
     if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then

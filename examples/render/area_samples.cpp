@@ -174,11 +174,11 @@ void visit_strata(const Scene& scene, const std::vector<Piece>& pieces, const st
         const double rest = weights[at] > 0.0 ? std::clamp((wanted - before) / weights[at], 0.0, 1.0) : 0.5;
         const double turn = golden * static_cast<double>(i);
         const Piece& piece = pieces[at];
-        const auto& [a, b, c] = piece.corners;
         const auto point = [&](double along, double across) {
             const double s = std::sqrt(along);
             const double t = s * across;
-            return (1.0 - s) * dvec2(a) + (s - t) * dvec2(b) + t * dvec2(c);
+            return (1.0 - s) * dvec2(piece.corners[0]) + (s - t) * dvec2(piece.corners[1]) +
+                   t * dvec2(piece.corners[2]);
         };
         dvec2 place = point(rest, turn - std::floor(turn));
         for (int tries = 1; tries < most_tries && !accepts(piece.triangle, place); ++tries) {

@@ -120,8 +120,8 @@ std::size_t append(std::vector<L>& to, const std::vector<L>& from) {
 
 }  // namespace
 
-void add_light_table(const std::filesystem::path& path, Scene& scene) {
-    const std::string text = read_file(path);
+void add_light_table(const std::filesystem::path& path, Scene& scene, const FileSource& files) {
+    const std::string text = files.read(path);
     std::string_view content = text;
     if (content.starts_with(byte_order_mark)) content.remove_prefix(byte_order_mark.size());
     Scene lights;

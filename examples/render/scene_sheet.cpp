@@ -99,21 +99,20 @@ SheetCamera camera_of(const Place& place, std::size_t index) {
     return result;
 }
 
-Json parse(const std::filesystem::path& path) {
-    const std::string text = read_file(path);
+Json parse(const std::filesystem::path& path, const std::string& text) {
     try {
         return Json::parse(text);
     } catch (const Json::parse_error& e) {
         const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(e.byte, text.size()));
         const auto line = static_cast<std::size_t>(1 + std::count(text.begin(), end, '\n'));
         fail_at(path, line, "not JSON; correct what stands here or just before");
-    }
+    } catch (const Json::exception&) { fail_at(path, 1, "a number is out of range; correct it"); }
 }
 
 }  // namespace
 
-SceneSheet read_scene_sheet(const std::filesystem::path& path) {
-    const Json json = parse(path);
+SceneSheet read_scene_sheet(const std::filesystem::path& path, const FileSource& files) {
+    const Json json = parse(path, files.read(path));
     const Place sheet{path, "", json};
     sheet.require_only(keys, notes);
     if (json.contains("up_axis") && sheet.at("up_axis").text() != "+Y") {

@@ -57,7 +57,8 @@ std::optional<std::filesystem::path> only_similar(const Paths& candidates, const
 std::optional<std::filesystem::path> FileSource::find(const std::filesystem::path& folder,
                                                       std::string_view name) const {
     const std::string_view bare = without_quotes(name);
-    if (bare.empty()) return std::nullopt;
+    // A system would take a name for what stands before a zero.
+    if (bare.empty() || bare.find('\0') != std::string_view::npos) return std::nullopt;
     // On this system a backslash may be part of a name.
     for (const std::string& meant : {std::string(bare), portable(bare)}) {
         const std::filesystem::path path = folder / meant;

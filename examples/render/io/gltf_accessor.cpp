@@ -12,8 +12,8 @@
 namespace render {
 namespace {
 
-/// Of an accessor without data; so many zeros are nobody's mesh.
-constexpr std::size_t most_zeros = std::size_t{1} << 24;
+/// Of an accessor without data of its own: a short file shall not ask for much memory.
+constexpr std::size_t most_zeros = std::size_t{1} << 22;
 
 struct ElementType {
     std::string_view name;

@@ -194,6 +194,9 @@ JsonObject GltfDocument::element(const char* key, std::size_t index, const std::
 std::string GltfDocument::resource(const std::string& uri) const {
     if (!is_data_uri(uri)) {
         const std::string name = percent_decoded(uri);
+        if (name.find('\0') != std::string::npos) {
+            throw invalid_input("the URI '" + printable(uri) + "' is not the name of a file; correct it");
+        }
         return files_.read(files_.find(folder_, name).value_or(folder_ / name));
     }
     auto data = data_of_uri(uri);

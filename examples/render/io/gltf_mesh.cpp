@@ -88,6 +88,7 @@ void GltfMeshes::read_primitive(const JsonObject& source, GltfPrimitive& primiti
         source.fail("it is compressed by KHR_draco_mesh_compression alone, which is not supported; export without");
     }
     const std::size_t count = document_.element("accessors", *positions, "accessor").needed("count");
+    if (!has_data(document_, *positions) && source.list("targets").empty()) return;  // all in one point
     primitive.positions = vectors_of(attribute(attributes, "POSITION", 3, count));
     primitive.normals = vectors_of(attribute(attributes, "NORMAL", 3, count));
     primitive.material = materials_.in_scene(source.index("material"));

@@ -89,7 +89,9 @@ std::vector<glm::dmat4> instances_of(GltfDocument& document, const JsonObject& n
     const JsonObject attributes = extension->object("attributes");
     const auto read = [&](const char* name, std::size_t components) {
         const auto accessor = attributes.index(name);
-        return accessor ? read_accessor(document, *accessor, components) : std::vector<double>();
+        if (!accessor) return std::vector<double>();
+        if (!has_data(document, *accessor)) attributes.fail(std::string(name) + " holds no data; export it again");
+        return read_accessor(document, *accessor, components);
     };
     const std::vector<double> translations = read("TRANSLATION", 3);
     const std::vector<double> rotations = read("ROTATION", 4);

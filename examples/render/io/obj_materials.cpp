@@ -230,6 +230,9 @@ std::filesystem::path ObjMaterials::path_of(const MtlMap& map) const {
             if (const auto path = files_.find(folder, name)) return *path;
         }
     }
+    if (map.file.find('\0') != std::string::npos) {
+        fail_at(library_, map.line, "'" + printable(map.file) + "' is not the name of a file; correct it");
+    }
     return library_.parent_path() / map.file;
 }
 
