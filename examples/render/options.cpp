@@ -152,8 +152,10 @@ void check_together(const Options& options) {
         throw usage_error("--target is the same point as --eye: give two that differ");
     }
     if (options.up) {
-        const glm::vec3 across = glm::cross(*options.target - *options.eye, *options.up);
-        if (across == glm::vec3(0.0f)) throw usage_error("--up points along the view: give another direction");
+        // Products of floats may overflow or vanish.
+        const glm::dvec3 way = glm::dvec3(*options.target) - glm::dvec3(*options.eye);
+        const glm::dvec3 across = glm::cross(way, glm::dvec3(*options.up));
+        if (across == glm::dvec3(0.0)) throw usage_error("--up points along the view: give another direction");
     }
 }
 

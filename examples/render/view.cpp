@@ -1,6 +1,7 @@
 #include "view.hpp"
 
 #include <cmath>
+#include <sstream>
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -13,10 +14,25 @@ namespace render {
 namespace {
 
 /// sin of the angle between view and up below which the picture's upright is not defined.
-constexpr float smallest_sine = 1e-4f;
+constexpr double smallest_sine = 1e-4;
 
-float sine_between(const glm::vec3& a, const glm::vec3& b) {
+/// Lengths whose squares floats can hold: what is done with rays is done in floats.
+constexpr double shortest = 1e-18;
+constexpr double longest = 1e18;
+
+bool is_usable_length(double length) { return length >= shortest && length <= longest; }
+
+/// From the eye to the target. In double, where differences and squares of floats neither overflow nor vanish.
+glm::dvec3 way(const glm::vec3& eye, const glm::vec3& target) { return glm::dvec3(target) - glm::dvec3(eye); }
+
+double sine_between(const glm::dvec3& a, const glm::dvec3& b) {
     return glm::length(glm::cross(glm::normalize(a), glm::normalize(b)));
+}
+
+std::string short_text(double value) {
+    std::ostringstream text;
+    text << value;
+    return text.str();
 }
 
 }  // namespace
@@ -44,14 +60,22 @@ View::View(const Camera& camera, int width, int height) : width_(width), height_
 EyeRay View::ray(float x, float y) const { return {eye_, glm::normalize(corner_ + x * right_ + y * down_)}; }
 
 void require_usable(const Camera& camera, const std::string& where) {
-    const auto require = [&](bool good, const char* problem) {
+    const auto require = [&](bool good, const std::string& problem) {
         if (!good) throw lightcuts::invalid_input(where + ": " + problem);
     };
     using lightcuts::is_finite;
     require(is_finite(camera.eye) && is_finite(camera.target) && is_finite(camera.up),
             "a coordinate is not finite; give --eye and --target");
     require(camera.target != camera.eye, "the target is at the eye; give --eye and --target");
-    require(camera.up != glm::vec3(0.0f) && sine_between(camera.target - camera.eye, camera.up) > smallest_sine,
+    const glm::dvec3 forward = way(camera.eye, camera.target);
+    const double distance = glm::length(forward);
+    const double upright = glm::length(glm::dvec3(camera.up));
+    const std::string range = "between " + short_text(shortest) + " and " + short_text(longest);
+    require(is_usable_length(distance), "the target is " + short_text(distance) + " from the eye, and has to be " +
+                                            range + "; give another --eye or --target");
+    require(upright == 0.0 || is_usable_length(upright),
+            "the up vector's length is " + short_text(upright) + ", and has to be " + range + "; give another --up");
+    require(upright > 0.0 && sine_between(forward, camera.up) > smallest_sine,
             "the up vector does not cross the view; give another --up");
     require(camera.vertical_fov > 0.0f && camera.vertical_fov < 180.0f,
             "the field of view is not between 0 and 180 degrees; give --fov");
@@ -59,8 +83,8 @@ void require_usable(const Camera& camera, const std::string& where) {
 
 glm::vec3 default_up(const glm::vec3& eye, const glm::vec3& target) {
     const glm::vec3 up(0.0f, 1.0f, 0.0f);
-    const glm::vec3 view = target - eye;
-    const bool vertical = glm::length(view) > 0.0f && sine_between(view, up) < smallest_sine;
+    const glm::dvec3 forward = way(eye, target);
+    const bool vertical = glm::length(forward) > 0.0 && sine_between(forward, up) < smallest_sine;
     return vertical ? glm::vec3(0.0f, 0.0f, -1.0f) : up;
 }
 
