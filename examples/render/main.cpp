@@ -1,7 +1,6 @@
 #include <chrono>
 #include <cstdio>
 #include <exception>
-#include <fstream>
 #include <memory>
 #include <string>
 
@@ -9,19 +8,20 @@
 #include <oneapi/tbb/task_arena.h>
 #include <glm/geometric.hpp>
 #include <lightcuts/core/invalid_input.hpp>
-#include <nlohmann/json.hpp>
 
 #include "error.hpp"
+#include "escape.hpp"
 #include "indirect.hpp"
 #include "interrupt.hpp"
 #include "load_scene.hpp"
 #include "options.hpp"
-#include "output_file.hpp"
+#include "outputs.hpp"
 #include "picture.hpp"
 #include "prepare_scene.hpp"
 #include "ray_scene.hpp"
 #include "render_loop.hpp"
 #include "shader.hpp"
+#include "standard_streams.hpp"
 #include "statistics.hpp"
 #include "surface.hpp"
 #include "validate.hpp"
@@ -51,21 +51,6 @@ public:
 
 private:
     std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
-
-/// The three files that a run leaves.
-struct Outputs {
-    std::filesystem::path exr;
-    std::filesystem::path png;
-    std::filesystem::path json;
-
-    explicit Outputs(const std::filesystem::path& exr_path) : exr(exr_path), png(exr_path), json(exr_path) {
-        png.replace_extension(".png");
-        json.replace_extension(".json");
-    }
-    void require_all_writable() const {
-        for (const auto& path : {exr, png, json}) require_writable(path);
-    }
 };
 
 std::optional<Picture> read_reference(const Options& options) {
@@ -106,21 +91,6 @@ Camera choose_camera(const Scene& scene, const Options& options) {
     if (options.fov) camera.vertical_fov = *options.fov;
     require_usable(camera, options.eye ? "--eye, --target" : scene.name + ": camera '" + camera.name + "'");
     return camera;
-}
-
-void save(const Outputs& outputs, const Picture& picture, const RunReport& report) {
-    OutputFile exr(outputs.exr);
-    OutputFile png(outputs.png);
-    OutputFile json(outputs.json);
-    write_exr(exr.path(), picture);
-    write_png(png.path(), picture.width, picture.height, tone_mapped(picture));
-    std::ofstream text(json.path());
-    text << to_json(report).dump(2) << "\n";
-    text.close();
-    if (!text) throw lightcuts::invalid_input(outputs.json.string() + ": cannot be written; is the disk full?");
-    exr.commit();
-    png.commit();
-    json.commit();
 }
 
 /// Of an error that is that of clamping rather than of the method.
@@ -175,24 +145,28 @@ ExitStatus render_scene(Options options) {
 
 ExitStatus run(const Options& options) {
     switch (options.action) {
-        case Options::Action::help: std::fputs(options.help.c_str(), stdout); return done;
-        case Options::Action::version: std::puts("lightcuts-render " LIGHTCUTS_VERSION); return done;
-        case Options::Action::list_scenes:
-            for (const std::string& name : builtin_names()) std::printf("builtin:%s\n", name.c_str());
+        case Options::Action::help: print(options.help); return done;
+        case Options::Action::version: print("lightcuts-render " LIGHTCUTS_VERSION "\n"); return done;
+        case Options::Action::list_scenes: {
+            std::string names;
+            for (const std::string& name : builtin_names()) names += "builtin:" + name + "\n";
+            print(names);
             return done;
+        }
         case Options::Action::render: break;
     }
     return render_scene(options);
 }
 
 ExitStatus fail(ExitStatus status, const std::string& message) {
-    std::fprintf(stderr, "lightcuts-render: %s\n", one_line(message).c_str());
+    std::fprintf(stderr, "lightcuts-render: %s\n", printable(message).c_str());
     return status;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+    guard_standard_streams();
     try {
         return run(parse_options(argc, argv));
     } catch (const usage_error& e) {

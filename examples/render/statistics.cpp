@@ -8,6 +8,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "escape.hpp"
+
 namespace render {
 
 namespace {
@@ -27,13 +29,15 @@ double as_written(float value) {
 
 Json to_json(const glm::vec3& v) { return {as_written(v.x), as_written(v.y), as_written(v.z)}; }
 
-Json path_or_null(const std::filesystem::path& path) { return path.empty() ? Json(nullptr) : Json(path.string()); }
+Json path_or_null(const std::filesystem::path& path) {
+    return path.empty() ? Json(nullptr) : Json(as_utf8(path.string()));
+}
 
 Json options_json(const RunReport& report) {
     const Options& o = report.options;
     Json json;
-    json["output"] = o.output.string();
-    json["camera"] = o.camera.empty() ? Json(nullptr) : Json(o.camera);
+    json["output"] = as_utf8(o.output.string());
+    json["camera"] = o.camera.empty() ? Json(nullptr) : Json(as_utf8(o.camera));
     json["eye"] = o.eye ? to_json(*o.eye) : Json(nullptr);
     json["target"] = o.target ? to_json(*o.target) : Json(nullptr);
     json["up"] = o.up ? to_json(*o.up) : Json(nullptr);
@@ -114,7 +118,7 @@ Json to_json(const RunReport& report) {
     const Scene& scene = report.scene;
     const RenderStatistics& s = report.statistics;
     Json json;
-    json["scene"] = o.scene;
+    json["scene"] = as_utf8(o.scene);
     json["method"] = o.method;
     json["size"] = {o.width, o.height};
     json["spp"] = o.spp;
@@ -155,7 +159,7 @@ std::string summary(const RunReport& report) {
     const RenderStatistics& s = report.statistics;
     std::ostringstream text;
     text << std::setprecision(3);
-    text << report.options.scene << ": " << scene.triangles.size() << " triangles, " << scene.light_count()
+    text << printable(report.options.scene) << ": " << scene.triangles.size() << " triangles, " << scene.light_count()
          << " lights\n";
     text << report.options.method << ": " << report.seconds.load << " s loading, " << report.seconds.tree
          << " s trees, " << report.seconds.render << " s rendering, "
@@ -166,7 +170,7 @@ std::string summary(const RunReport& report) {
              << 100.0 * report.error->p999_relative << " %\n";
     }
     text << (report.interrupted ? "interrupted; what was finished is in " : "written: ")
-         << report.options.output.string() << "\n";
+         << printable(report.options.output.string()) << "\n";
     return text.str();
 }
 
