@@ -12,6 +12,7 @@
 #include "error.hpp"
 #include "escape.hpp"
 #include "false_color.hpp"
+#include "interrupt.hpp"
 #include "options.hpp"
 #include "output_file.hpp"
 #include "picture.hpp"
@@ -119,6 +120,7 @@ int fail(int status, const std::string& message) {
 
 int main(int argc, char** argv) {
     guard_standard_streams();
+    watch_signals("lightcuts-compare");
     try {
         return run(argc, argv);
     } catch (const CLI::ParseError& e) {

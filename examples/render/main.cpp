@@ -11,6 +11,7 @@
 
 #include "error.hpp"
 #include "escape.hpp"
+#include "fingerprint.hpp"
 #include "indirect.hpp"
 #include "interrupt.hpp"
 #include "load_scene.hpp"
@@ -20,6 +21,7 @@
 #include "prepare_scene.hpp"
 #include "ray_scene.hpp"
 #include "render_loop.hpp"
+#include "resume_file.hpp"
 #include "shader.hpp"
 #include "standard_streams.hpp"
 #include "statistics.hpp"
@@ -35,7 +37,7 @@ namespace {
 
 using namespace render;
 
-enum ExitStatus { done = 0, bad_input = 1, bad_command_line = 2, stopped = 3 };
+enum ExitStatus { done = 0, bad_input = 1, bad_command_line = 2, stopped = interrupted_status };
 
 constexpr float default_fov = 45.0f;
 
@@ -93,6 +95,24 @@ Camera choose_camera(const Scene& scene, const Options& options) {
     return camera;
 }
 
+void warn(const std::string& message) {
+    std::fprintf(stderr, "lightcuts-render: warning: %s\n", printable(message).c_str());
+}
+
+/// Says what becomes of finished tiles that an earlier run may have left.
+/// throws: invalid_input if the command line asks for them and they cannot be used.
+void announce(const ResumeFile& file, const Options& options) {
+    const std::string name = file.path().string();
+    if (!file.obstacle().empty()) {
+        if (options.resume) throw lightcuts::invalid_input(name + ": " + file.obstacle() + "; leave --resume out");
+        warn(name + ": " + file.obstacle() + "; rendering goes on, but could not be resumed");
+    } else if (options.resume != file.is_there() && !options.quiet) {
+        const char* state = options.resume ? "there are no finished tiles; starting from the beginning"
+                                           : "starting over; --resume would have gone on with these finished tiles";
+        std::fprintf(stderr, "lightcuts-render: %s: %s\n", printable(name).c_str(), state);
+    }
+}
+
 /// Of an error that is that of clamping rather than of the method.
 void warn_of_clamped_reference(const Scene& scene, const Options& options) {
     if (options.quiet || options.reference.empty() || scene.virtual_lights.empty() || !options.is_clamp_idle()) return;
@@ -102,15 +122,39 @@ void warn_of_clamped_reference(const Scene& scene, const Options& options) {
                  options.method.c_str());
 }
 
+/// Writes what there is of the picture. throws: invalid_input, and then nothing that was rendered is lost.
+ExitStatus save_rendering(const Outputs& outputs, ResumeFile& tiles, const Rendering& rendering, RunReport& report) {
+    const bool quiet = report.options.quiet;
+    tiles.flush();
+    if (rendering.interrupted && rendering.tiles == 0) {
+        std::fputs("lightcuts-render: interrupted before anything was finished; nothing was written\n", stderr);
+        return stopped;
+    }
+    const Outputs chosen = rendering.interrupted ? outputs.of_unfinished() : outputs;
+    report.picture = chosen.exr;
+    try {
+        save(chosen, rendering.picture, report);
+    } catch (const lightcuts::invalid_input& e) {
+        if (!tiles.is_of_use()) throw;
+        throw lightcuts::invalid_input(std::string(e.what()) + "; --resume will not render again what is in " +
+                                       tiles.path().string());
+    }
+    if (!rendering.interrupted) tiles.remove();
+    if (!quiet) std::fputs(summary(report).c_str(), stderr);
+    if (quiet && rendering.interrupted) std::fprintf(stderr, "lightcuts-render: %s\n", interruption(report).c_str());
+    return rendering.interrupted ? stopped : done;
+}
+
 ExitStatus render_scene(Options options) {
     const Outputs outputs(options.output);
     outputs.require_all_writable();
+    ResumeFile tiles(outputs.resume, warn);
+    announce(tiles, options);
     const std::optional<Picture> reference = read_reference(options);
 
     const int threads = options.threads > 0 ? options.threads : tbb::this_task_arena::max_concurrency();
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
     tbb::task_arena arena(threads);
-    watch_interrupt();
 
     Stopwatch watch;
     Scene scene = prepare_scene(options);
@@ -131,16 +175,22 @@ ExitStatus render_scene(Options options) {
         const SurfaceFinder surfaces(scene, rays, shade);
         report.adaptation = options.adaptation ? *options.adaptation : measure_adaptation(view, surfaces, *shader);
         shader->adapt(report.adaptation);
-        rendering = render_picture(view, surfaces, *shader, options);
+        const Fingerprint fingerprint = fingerprint_of(options, scene, camera, rays, LIGHTCUTS_VERSION);
+        defer_signals();
+        if (options.resume && tiles.is_there()) {
+            tiles.go_on(fingerprint);
+        } else {
+            tiles.begin(fingerprint);
+        }
+        rendering = render_picture(view, surfaces, *shader, options, &tiles);
         report.seconds.render = watch.lap();
     });
 
     report.statistics = rendering.statistics;
     report.interrupted = rendering.interrupted;
+    report.resumed_tiles = rendering.resumed_tiles;
     if (reference && !rendering.interrupted) report.error = compare(rendering.picture, *reference);
-    save(outputs, rendering.picture, report);
-    if (!options.quiet) std::fputs(summary(report).c_str(), stderr);
-    return rendering.interrupted ? stopped : done;
+    return save_rendering(outputs, tiles, rendering, report);
 }
 
 ExitStatus run(const Options& options) {
@@ -167,6 +217,7 @@ ExitStatus fail(ExitStatus status, const std::string& message) {
 
 int main(int argc, char** argv) {
     guard_standard_streams();
+    watch_signals("lightcuts-render");
     try {
         return run(parse_options(argc, argv));
     } catch (const usage_error& e) {

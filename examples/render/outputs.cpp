@@ -1,10 +1,12 @@
 #include "outputs.hpp"
 
 #include <exception>
+#include <fstream>
 #include <functional>
 #include <memory>
 #include <new>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include <lightcuts/core/invalid_input.hpp>
@@ -15,6 +17,18 @@
 namespace render {
 
 namespace {
+
+bool is_there(const std::filesystem::path& path) {
+    std::error_code ignored;
+    return std::filesystem::exists(path, ignored);
+}
+
+/// True iff the report `path` says that its picture is not finished.
+bool tells_of_interruption(const std::filesystem::path& path) {
+    std::ifstream file(path);
+    const auto report = nlohmann::json::parse(file, nullptr, false);
+    return report.is_object() && report.value("interrupted", nlohmann::json()) == true;
+}
 
 std::vector<char> text_bytes(const RunReport& report) {
     const std::string text = to_json(report).dump(2) + "\n";
@@ -72,7 +86,14 @@ private:
 }  // namespace
 
 Outputs::Outputs(const std::filesystem::path& picture)
-    : exr(picture), png(beside(picture, ".png")), json(beside(picture, ".json")) {}
+    : exr(picture), png(beside(picture, ".png")), json(beside(picture, ".json")), resume(beside(picture, ".resume")) {}
+
+Outputs Outputs::of_unfinished() const {
+    const bool taken = is_there(exr) || is_there(png) || is_there(json);
+    if (!taken || tells_of_interruption(json)) return *this;
+    const std::string extension = exr.extension().string();
+    return Outputs(beside(exr, ".partial" + (extension.empty() ? ".exr" : extension)));
+}
 
 void Outputs::require_all_writable() const {
     for (const auto& path : {exr, png, json}) require_writable(path);

@@ -7,15 +7,20 @@
 
 namespace render {
 
-/// The names of what a run leaves: the picture, and beside it a tone-mapped one and the report.
+/// The names of what a run leaves: the picture, beside it a tone-mapped one and the report, and while it is rendered
+/// the finished tiles.
 struct Outputs {
     std::filesystem::path exr;
     std::filesystem::path png;
     std::filesystem::path json;
+    std::filesystem::path resume;
 
     explicit Outputs(const std::filesystem::path& picture);
 
-    /// throws: invalid_input unless all can be written.
+    /// Where a picture goes that is not finished: under these names, unless they hold one that is.
+    Outputs of_unfinished() const;
+
+    /// throws: invalid_input unless the first three can be written.
     void require_all_writable() const;
 };
 

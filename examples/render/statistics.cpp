@@ -125,6 +125,8 @@ Json to_json(const RunReport& report) {
     json["seed"] = o.seed;
     json["threads"] = report.threads;
     json["interrupted"] = report.interrupted;
+    json["picture"] = as_utf8(report.picture.string());
+    json["resumed_tiles"] = report.resumed_tiles;
     json["triangles"] = scene.triangles.size();
     const std::size_t of_file = scene.directional.size() - scene.environment_lights - scene.sun_lights -
                                 scene.sky_lights;
@@ -154,6 +156,14 @@ Json to_json(const RunReport& report) {
     return json;
 }
 
+std::string interruption(const RunReport& report) {
+    std::string text = "interrupted; what was finished is in " + printable(report.picture.string());
+    if (report.picture != report.options.output) {
+        text += "; a finished picture has the name " + printable(report.options.output.string());
+    }
+    return text;
+}
+
 std::string summary(const RunReport& report) {
     const Scene& scene = report.scene;
     const RenderStatistics& s = report.statistics;
@@ -169,8 +179,7 @@ std::string summary(const RunReport& report) {
         text << "relative RMSE " << 100.0 * report.error->relative_rmse << " %, 99.9th percentile "
              << 100.0 * report.error->p999_relative << " %\n";
     }
-    text << (report.interrupted ? "interrupted; what was finished is in " : "written: ")
-         << printable(report.options.output.string()) << "\n";
+    text << (report.interrupted ? interruption(report) : "written: " + printable(report.picture.string())) << "\n";
     return text.str();
 }
 
