@@ -13,6 +13,7 @@
 #include "escape.hpp"
 #include "false_color.hpp"
 #include "interrupt.hpp"
+#include "memory.hpp"
 #include "options.hpp"
 #include "output_file.hpp"
 #include "picture.hpp"
@@ -121,11 +122,13 @@ int fail(int status, const std::string& message) {
 int main(int argc, char** argv) {
     guard_standard_streams();
     watch_signals("lightcuts-compare");
+    watch_termination("lightcuts-compare");
     try {
         return run(argc, argv);
     } catch (const CLI::ParseError& e) {
         return fail(2, one_line(e.what()) + " (--help lists the options)");
     } catch (const std::bad_alloc&) {
-        return fail(1, "not enough memory for these pictures");
+        // What was asked for has been given back: there is room for a message.
+        return fail(1, memory_shortage());
     } catch (const std::exception& e) { return fail(1, e.what()); }
 }

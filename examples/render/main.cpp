@@ -15,6 +15,7 @@
 #include "indirect.hpp"
 #include "interrupt.hpp"
 #include "load_scene.hpp"
+#include "memory.hpp"
 #include "options.hpp"
 #include "outputs.hpp"
 #include "picture.hpp"
@@ -218,11 +219,13 @@ ExitStatus fail(ExitStatus status, const std::string& message) {
 int main(int argc, char** argv) {
     guard_standard_streams();
     watch_signals("lightcuts-render");
+    watch_termination("lightcuts-render");
     try {
         return run(parse_options(argc, argv));
     } catch (const usage_error& e) {
         return fail(bad_command_line, std::string(e.what()) + " (--help lists the options)");
     } catch (const std::bad_alloc&) {
-        return fail(bad_input, "not enough memory; give a smaller --size or scene");
+        // What was asked for has been given back: there is room for a message.
+        return fail(bad_input, memory_shortage());
     } catch (const std::exception& e) { return fail(bad_input, e.what()); }
 }

@@ -4,11 +4,10 @@
 #include <iomanip>
 #include <sstream>
 
-#include <sys/resource.h>
-
 #include <nlohmann/json.hpp>
 
 #include "escape.hpp"
+#include "memory.hpp"
 
 namespace render {
 
@@ -90,16 +89,6 @@ Json clamp_json(const RunReport& report) {
 }
 
 }  // namespace
-
-std::uint64_t peak_memory() {
-    rusage usage{};
-    ::getrusage(RUSAGE_SELF, &usage);
-#ifdef __APPLE__
-    return static_cast<std::uint64_t>(usage.ru_maxrss);
-#else
-    return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024u;
-#endif
-}
 
 Json to_json(const ErrorFigures& figures) {
     Json json;

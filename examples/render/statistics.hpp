@@ -39,9 +39,6 @@ struct RunReport {
     std::optional<ErrorFigures> error;
 };
 
-/// Largest resident memory of the process so far, bytes.
-std::uint64_t peak_memory();
-
 /// The report with the stable keys of the command line's contract. Numbers that are not finite become null. The
 /// error bound of a pixel is that of its worst channel; `cut_size.at_limit` counts surface points.
 nlohmann::ordered_json to_json(const RunReport& report);
