@@ -133,12 +133,17 @@ ExitStatus save_rendering(const Outputs& outputs, ResumeFile& tiles, const Rende
     }
     const Outputs chosen = rendering.interrupted ? outputs.of_unfinished() : outputs;
     report.picture = chosen.exr;
+    const auto save_all = [&] { save(chosen, rendering.picture, report); };
     try {
-        save(chosen, rendering.picture, report);
+        save_all();
     } catch (const lightcuts::invalid_input& e) {
         if (!tiles.is_of_use()) throw;
-        throw lightcuts::invalid_input(std::string(e.what()) + "; --resume will not render again what is in " +
-                                       tiles.path().string());
+        const std::string hint = "; --resume will not render again what is in " + tiles.path().string();
+        if (rendering.interrupted) throw lightcuts::invalid_input(e.what() + hint);
+        // All that the tiles are for is here now, and they may take the room that it needs.
+        try {
+            tiles.lend_room(save_all);
+        } catch (const lightcuts::invalid_input& again) { throw lightcuts::invalid_input(again.what() + hint); }
     }
     if (!rendering.interrupted) tiles.remove();
     if (!quiet) std::fputs(summary(report).c_str(), stderr);

@@ -106,6 +106,7 @@ void ResumeFile::look() {
     std::vector<char> start(magic.size() + sizeof(Header));
     const std::ptrdiff_t length = file_.read_at(0, start);
     start.resize(length < 0 ? 0 : static_cast<std::size_t>(length));
+    if (length == 0) return;
     const std::string_view text(start.data(), std::min(start.size(), magic.size()));
     if (!text.starts_with(magic_of_any_format)) {
         obstacle_ = "is not a file of finished tiles";
@@ -235,6 +236,21 @@ void ResumeFile::fail(int error) {
     if (std::exchange(warned_, true)) return;
     warn_(path_.string() + ": cannot be written (" + std::strerror(error) +
           "); rendering goes on, and --resume would find less than is finished");
+}
+
+void ResumeFile::lend_room(const std::function<void()>& action) {
+    const std::lock_guard lock(appending_);
+    std::vector<char> bytes(open_ ? end_ : 0);
+    const bool taken = !bytes.empty() && file_.read_at(0, bytes) == static_cast<std::ptrdiff_t>(bytes.size()) &&
+                       ::ftruncate(file_.number(), 0) == 0;
+    try {
+        action();
+    } catch (...) {
+        if (taken && ::lseek(file_.number(), 0, SEEK_SET) == 0) {
+            if (const int error = write_all(file_.number(), bytes)) fail(error);
+        }
+        throw;
+    }
 }
 
 void ResumeFile::remove() {

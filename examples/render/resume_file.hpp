@@ -66,6 +66,9 @@ public:
     /// True iff there are tiles in it that a later run can use.
     bool is_of_use() const { return open_ && end_ > begin_; }
 
+    /// Does `action` with the room on the disk that the tiles take. They are put back if it throws.
+    void lend_room(const std::function<void()>& action);
+
     /// Deletes the file: the picture is complete.
     void remove();
 

@@ -164,6 +164,7 @@ std::string summary(const RunReport& report) {
          << " s trees, " << report.seconds.render << " s rendering, "
          << per(static_cast<double>(s.shadow_rays), s.pixels) << " shadow rays a pixel, cut size "
          << per(static_cast<double>(s.cut_nodes), s.points) << "\n";
+    if (report.resumed_tiles > 0) text << report.resumed_tiles << " tiles of these were there from an earlier run\n";
     if (report.error) {
         text << "relative RMSE " << 100.0 * report.error->relative_rmse << " %, 99.9th percentile "
              << 100.0 * report.error->p999_relative << " %\n";

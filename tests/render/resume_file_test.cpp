@@ -185,6 +185,36 @@ TEST(ResumeFile, GoesOnWhenThereIsRoomAgain) {
     EXPECT_EQ(tiles[0].values, tile(2).values);
 }
 
+TEST(ResumeFile, LendsItsRoomAndGetsItBackIfThatIsInVain) {
+    const TemporaryFolder folder;
+    const std::string path = write_two(folder / "a.resume");
+    const std::string whole = folder.read("a.resume");
+    ResumeFile file(path, fail_on_warning);
+    file.go_on(print_of("1"));
+    file.read(counts, [](const FinishedTile&) {});
+    const auto in_vain = [&] {
+        file.lend_room([&] {
+            EXPECT_EQ(std::filesystem::file_size(path), 0u);
+            throw lightcuts::invalid_input("in vain");
+        });
+    };
+    EXPECT_THROW(in_vain(), lightcuts::invalid_input);
+    EXPECT_TRUE(folder.read("a.resume") == whole);
+    file.lend_room([] {});
+    EXPECT_EQ(std::filesystem::file_size(path), 0u);
+    file.remove();
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+TEST(ResumeFile, TakesAnEmptyFileForNone) {
+    const TemporaryFolder folder;
+    ResumeFile file(folder.write("a.resume", ""), fail_on_warning);
+    EXPECT_FALSE(file.is_there());
+    EXPECT_EQ(file.obstacle(), "");
+    file.begin(print_of("1"));
+    EXPECT_GT(std::filesystem::file_size(file.path()), 0u);
+}
+
 TEST(ResumeFile, DoesNotFollowLinks) {
     const TemporaryFolder folder;
     const std::string target = write_two(folder / "target");
