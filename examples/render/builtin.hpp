@@ -37,8 +37,8 @@ Scene builtin_screens();
 /// it. Below, pools of light of a point, a spot and a sphere.
 Scene builtin_test_card();
 
-/// Tiles are 1 x 1, their lower left corners `pitch` apart; the first one's is the origin, rows go downwards. The camera
-/// `card` is orthographic, as high as `height` about `middle`.
+/// Tiles are 1 x 1, their lower left corners `pitch` apart; the first one's is the origin, rows go downwards. The
+/// camera `card` is orthographic, as high as `height` about `middle`.
 inline constexpr int test_card_columns = 6;
 inline constexpr int test_card_rows = 5;
 inline constexpr float test_card_pitch = 1.1f;

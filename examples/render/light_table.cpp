@@ -12,7 +12,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
-#include "io/printable.hpp"
+#include "escape.hpp"
 #include "text_file.hpp"
 
 namespace render {
@@ -48,7 +48,7 @@ struct Row {
         if (fields[column].empty()) fail(name + " is missing; give it a number");
         const std::optional<double> value = parse_number(fields[column]);
         if (!value || !std::isfinite(static_cast<float>(*value))) {
-            fail(name + " '" + printable(fields[column]) + "' is not a finite number; correct it");
+            fail(name + " '" + excerpt(fields[column]) + "' is not a finite number; correct it");
         }
         return *value;
     }
@@ -66,7 +66,7 @@ struct Row {
 
     float radius() const {
         const auto r = static_cast<float>(number(4));
-        if (!(r > 0.0f)) fail("the radius dx '" + printable(fields[4]) + "' is not positive; correct it");
+        if (!(r > 0.0f)) fail("the radius dx '" + excerpt(fields[4]) + "' is not positive; correct it");
         return r;
     }
 
@@ -75,7 +75,7 @@ struct Row {
         for (int i = 0; i < 3; ++i) {
             const auto column = static_cast<std::size_t>(7 + i);
             if (rgb[i] < 0.0f) {
-                fail(std::string(columns[column]) + " '" + printable(fields[column]) +
+                fail(std::string(columns[column]) + " '" + excerpt(fields[column]) +
                      "' is negative; light cannot be taken away");
             }
         }
@@ -85,7 +85,7 @@ struct Row {
     void require_empty(std::size_t first, std::size_t count = 3) const {
         for (std::size_t column = first; column < first + count; ++column) {
             if (!fields[column].empty()) {
-                fail(std::string(columns[column]) + " must be empty for the kind '" + printable(fields[0]) + "'");
+                fail(std::string(columns[column]) + " must be empty for the kind '" + excerpt(fields[0]) + "'");
             }
         }
     }
@@ -105,7 +105,7 @@ void add_light(const Row& row, const glm::dvec3& origin, Scene& lights) {
         row.require_empty(1);
         lights.directional.push_back({row.direction(), row.intensity()});
     } else {
-        row.fail("the kind '" + printable(kind) + "' is unknown; use omni, oriented, directional or sphere");
+        row.fail("the kind '" + excerpt(kind) + "' is unknown; use omni, oriented, directional or sphere");
     }
 }
 

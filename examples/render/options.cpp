@@ -121,8 +121,9 @@ void set_aovs(Options& options, const std::string& text) {
 
 void set_output(Options& options, const std::string& text) {
     const std::filesystem::path path(text);
-    if (path.extension() == ".png" || path.extension() == ".json") {
-        refuse("--output", text, "the name of an OpenEXR file; .png and .json of the same stem are written beside it");
+    if (path.extension() == ".png" || path.extension() == ".json" || path.extension() == ".resume") {
+        refuse("--output", text,
+               "the name of an OpenEXR file; .png, .json and .resume of the same stem are written beside it");
     }
     if (!path.has_filename()) refuse("--output", text, "a file name");
     options.output = path;
@@ -324,6 +325,7 @@ Options parse_options(int argc, const char* const* argv) {
         options.seed = number_in<std::uint64_t>("--seed", s, 0, std::numeric_limits<std::uint64_t>::max(),
                                                 "a whole number of at least 0");
     });
+    app.add_flag("--resume", options.resume, "go on with the interrupted picture that --output names");
     app.add_flag("--quiet", options.quiet, "print nothing but errors");
 
     for (const std::string& name : later_options) {
@@ -341,7 +343,9 @@ Options parse_options(int argc, const char* const* argv) {
         return options;
     } catch (const CLI::ParseError& e) { throw usage_error(one_line(e.what())); }
     for (const CLI::Option* option : app.get_options()) {
-        if (option->count() > 0) options.given.push_back(option->get_name());
+        if (option->count() == 0) continue;
+        options.given.push_back(option->get_name());
+        options.given_texts.push_back(listed(option->results()));
     }
     if (version) options.action = Options::Action::version;
     if (list_scenes) options.action = Options::Action::list_scenes;

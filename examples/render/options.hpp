@@ -73,7 +73,10 @@ struct Options {
     std::uint64_t seed = 1;
     bool quiet = false;
 
-    std::vector<std::string> given;  ///< long names of those that the command line sets
+    bool resume = false;  ///< go on with an interrupted picture
+
+    std::vector<std::string> given;        ///< long names of those that the command line sets
+    std::vector<std::string> given_texts;  ///< what it sets each of them to
 
     bool is_given(const std::string& name) const;
     bool has_aov(const std::string& name) const;

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <limits>
+#include <new>
 #include <stdexcept>
 #include <string>
 
+#include "memory.hpp"
 #include "surface_colors.hpp"
 
 namespace render {
@@ -37,12 +39,20 @@ RTCRay make_ray(const glm::vec3& origin, const glm::vec3& direction, float end) 
     return ray;
 }
 
+/// What Embree last said in this thread.
+thread_local std::string embree_words;
+
+void keep_words(void*, RTCError, const char* words) { embree_words = words ? words : ""; }
+
+/// `device`: null for that which could not be made. Embree gives a thread or a block that the system refuses any of
+/// two names.
 void require(RTCDevice device) {
     const RTCError error = rtcGetDeviceError(device);
-    if (error == RTC_ERROR_NONE) return;
-    throw std::runtime_error(error == RTC_ERROR_OUT_OF_MEMORY
-                                 ? std::string("not enough memory for the ray tracer's hierarchy")
-                                 : "Embree failed with error " + std::to_string(static_cast<int>(error)));
+    if (device && error == RTC_ERROR_NONE) return;
+    if (error == RTC_ERROR_OUT_OF_MEMORY || is_memory_short()) throw std::bad_alloc();
+    if (!device) throw std::runtime_error("Embree cannot be started on this machine");
+    throw std::runtime_error("Embree failed with error " + std::to_string(static_cast<int>(error)) + ": " +
+                             embree_words);
 }
 
 }  // namespace
@@ -55,7 +65,8 @@ RayScene::RayScene(const Scene& scene) : source_(scene) {
     transmissive_ = !translucent_.empty();
 
     device_ = rtcNewDevice(nullptr);
-    if (!device_) throw std::runtime_error("Embree cannot be started on this machine");
+    if (!device_) require(device_);
+    rtcSetDeviceErrorFunction(device_, keep_words, nullptr);
     scene_ = rtcNewScene(device_);
     try {
         // A high-quality hierarchy would split triangles and report one surface twice to the filters.

@@ -46,6 +46,7 @@ public:
 
     /// For occlusion queries by others. pre: `!transmissive()`, as the filters expect a context of this class.
     RTCScene embree_scene() const { return scene_; }
+    RTCDevice embree_device() const { return device_; }
 
     /// Shadow rays end at this share of the way to a light, so that the surface which the light lies on is not hit.
     static constexpr float shadow_ray_end = 1.0f - 1e-4f;

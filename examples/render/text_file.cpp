@@ -13,6 +13,8 @@
 
 #include <lightcuts/core/invalid_input.hpp>
 
+#include "descriptor.hpp"
+
 namespace render {
 namespace {
 
@@ -20,31 +22,15 @@ constexpr std::size_t block = std::size_t{1} << 20;
 /// A pipe may never end. A file has a size, which memory has to hold.
 constexpr std::size_t largest_pipe = std::size_t{1} << 30;
 
-/// An open file.
-class Descriptor {
-public:
-    explicit Descriptor(const std::filesystem::path& path) : number_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {}
-    ~Descriptor() {
-        if (number_ >= 0) ::close(number_);
-    }
-    Descriptor(const Descriptor&) = delete;
-    Descriptor& operator=(const Descriptor&) = delete;
-
-    int number() const { return number_; }
-
-private:
-    int number_;
-};
-
 }  // namespace
 
 std::string read_file(const std::filesystem::path& path) {
     const auto refuse = [&](const std::string& problem) {
         throw lightcuts::invalid_input(path.string() + ": " + problem);
     };
-    const Descriptor file(path);
+    const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
     struct stat status {};
-    if (file.number() < 0) {
+    if (!file) {
         if (errno == ENOENT || errno == ENOTDIR) refuse("there is no such file; check the path");
         refuse(std::string("cannot be read (") + std::strerror(errno) + "); name a readable file");
     }

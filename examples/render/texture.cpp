@@ -13,10 +13,10 @@
 #include <glm/common.hpp>
 #include <lightcuts/core/invalid_input.hpp>
 
+#include "escape.hpp"
 #include "io/exr_picture.hpp"
 #include "io/file_kind.hpp"
 #include "io/picture_size.hpp"
-#include "io/printable.hpp"
 #include "io/radiance_picture.hpp"
 #include "text_file.hpp"
 
@@ -128,7 +128,7 @@ Texture decoded_texture(std::string_view bytes, const std::string& name, bool sr
                 : static_cast<void*>(stbi_load_from_callbacks(&stb_callbacks, &all, &width, &height, &channels, 4)),
         stbi_image_free);
     if (all.ran_out && (pixels || !kind.empty())) fail("it is cut short");
-    if (!pixels) fail(printable(stbi_failure_reason()));
+    if (!pixels) fail(excerpt(stbi_failure_reason()));
     const int bits = is_wide ? 16 : 8;
     const std::size_t size = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4 *
                              static_cast<std::size_t>(bits / 8);

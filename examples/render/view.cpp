@@ -1,6 +1,7 @@
 #include "view.hpp"
 
 #include <cmath>
+#include <sstream>
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -14,14 +15,24 @@ namespace {
 
 /// sin of the angle between view and up below which the picture's upright is not defined.
 constexpr double smallest_sine = 1e-4;
-/// Of the eye from the scene's origin: beyond, squares of distances leave the range of floats.
-constexpr double farthest = 1e18;
+
+/// Lengths whose squares floats can hold: what is done with rays is done in floats.
+constexpr double shortest = 1e-18;
+constexpr double longest = 1e18;
+
+bool is_usable_length(double length) { return length >= shortest && length <= longest; }
 
 double sine_between(const glm::dvec3& a, const glm::dvec3& b) {
     return glm::length(glm::cross(glm::normalize(a), glm::normalize(b)));
 }
 
 bool is_finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+std::string short_text(double value) {
+    std::ostringstream text;
+    text << value;
+    return text.str();
+}
 
 }  // namespace
 
@@ -58,16 +69,24 @@ EyeRay View::ray(float x, float y) const {
 }
 
 void require_usable(const Camera& camera, const std::string& where) {
-    const auto require = [&](bool good, const char* problem) {
+    const auto require = [&](bool good, const std::string& problem) {
         if (!good) throw lightcuts::invalid_input(where + ": " + problem);
     };
     require(is_finite(camera.eye) && is_finite(camera.target) && lightcuts::is_finite(camera.up),
             "a coordinate is not finite; give --eye and --target");
     require(camera.target != camera.eye, "the target is at the eye; give --eye and --target");
-    require(glm::length(camera.eye) < farthest && glm::length(camera.target) < farthest,
-            "the eye or its target is farther away than 1e18; give --eye and --target");
-    require(camera.up != glm::vec3(0.0f), "the up vector has no length; give another --up");
-    require(sine_between(camera.target - camera.eye, glm::dvec3(camera.up)) > smallest_sine,
+    const glm::dvec3 forward = camera.target - camera.eye;
+    const double distance = glm::length(forward);
+    const double upright = glm::length(glm::dvec3(camera.up));
+    const std::string range = "between " + short_text(shortest) + " and " + short_text(longest);
+    require(is_usable_length(distance), "the target is " + short_text(distance) + " from the eye, and has to be " +
+                                            range + "; give another --eye or --target");
+    require(glm::length(camera.eye) <= longest, "the eye is " + short_text(glm::length(camera.eye)) +
+                                                    " from the origin, and has to be at most " + short_text(longest) +
+                                                    "; give another --eye");
+    require(upright == 0.0 || is_usable_length(upright),
+            "the up vector's length is " + short_text(upright) + ", and has to be " + range + "; give another --up");
+    require(upright > 0.0 && sine_between(forward, glm::dvec3(camera.up)) > smallest_sine,
             "the up vector does not cross the view; give another --up");
     require(camera.height > 0.0 || (camera.vertical_fov > 0.0f && camera.vertical_fov < 180.0f),
             "the field of view is not between 0 and 180 degrees; give --fov");

@@ -12,7 +12,7 @@
 #include <ImfPartType.h>
 #include <ImfVersion.h>
 
-#include "io/printable.hpp"
+#include "escape.hpp"
 
 namespace render {
 
@@ -54,8 +54,8 @@ bool skip_attributes(Bytes& bytes) {
         bytes.text();  // its type
         const std::uint32_t size = bytes.number();
         if (size > bytes.left()) {
-            throw std::runtime_error("its attribute '" + printable(name) +
-                                     "' is longer than the file: it is cut short " + "or damaged");
+            throw std::runtime_error("its attribute '" + excerpt(name) + "' is longer than the file: it is cut short " +
+                                     "or damaged");
         }
         bytes.skip(size);
     }
@@ -100,7 +100,7 @@ std::string channels_of(const Imf::MultiPartInputFile& file) {
         for (auto channel = channels.begin(); channel != channels.end(); ++channel) names.push_back(channel.name());
     }
     std::string list;
-    for (std::size_t i = 0; i < names.size() && i < shown; ++i) list += (i == 0 ? "" : ", ") + printable(names[i]);
+    for (std::size_t i = 0; i < names.size() && i < shown; ++i) list += (i == 0 ? "" : ", ") + excerpt(names[i]);
     if (names.size() > shown) list += " and " + std::to_string(names.size() - shown) + " more";
     return list.empty() ? "no channels" : list;
 }

@@ -18,12 +18,12 @@
 #include <ImfStandardAttributes.h>
 #include <lightcuts/core/invalid_input.hpp>
 
+#include "escape.hpp"
 #include "io/exr_header.hpp"
 #include "io/exr_stream.hpp"
 #include "io/file_kind.hpp"
 #include "io/picture_size.hpp"
 #include "io/primaries.hpp"
-#include "io/printable.hpp"
 
 namespace render {
 
@@ -166,7 +166,7 @@ std::string cause_of(const Iex::BaseExc& problem, const std::string& name) {
     const std::string_view text = problem.what();
     const std::string named = '"' + name + "\". ";
     const std::size_t at = text.find(named);
-    return printable(at == std::string_view::npos ? text : text.substr(at + named.size()), 200);
+    return excerpt(at == std::string_view::npos ? text : text.substr(at + named.size()), 200);
 }
 
 }  // namespace

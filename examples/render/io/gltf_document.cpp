@@ -7,7 +7,7 @@
 
 #include <lightcuts/core/invalid_input.hpp>
 
-#include "io/printable.hpp"
+#include "escape.hpp"
 #include "io/uri.hpp"
 #include "text_file.hpp"
 
@@ -152,9 +152,9 @@ void GltfDocument::require_version() const {
     // glTF 1.0 allowed a number.
     const std::string version = written && written->is_number() ? written->dump() : asset.text("version");
     if (version.empty()) throw invalid_input("not a glTF 2.0 file (asset.version is missing)");
-    if (!version.starts_with("2.")) throw invalid_input("is glTF " + printable(version) + "; convert it to glTF 2.0");
+    if (!version.starts_with("2.")) throw invalid_input("is glTF " + excerpt(version) + "; convert it to glTF 2.0");
     const std::string least = asset.text("minVersion", "2.0");
-    if (least != "2.0") throw invalid_input("needs glTF " + printable(least) + "; convert it to glTF 2.0");
+    if (least != "2.0") throw invalid_input("needs glTF " + excerpt(least) + "; convert it to glTF 2.0");
 }
 
 void GltfDocument::require_extensions() const {
@@ -163,8 +163,7 @@ void GltfDocument::require_extensions() const {
         const auto name = value.get<std::string>();
         const Substitute* substitute = substitute_for(name);
         if (is_supported(name) || (substitute && substitute->may_be_required)) continue;
-        throw invalid_input("requires the extension " + printable(name) +
-                            ", which is not supported; export without it");
+        throw invalid_input("requires the extension " + excerpt(name) + ", which is not supported; export without it");
     }
 }
 
@@ -176,7 +175,7 @@ void GltfDocument::note_extensions(std::vector<LeftOut>& left_out) const {
     for (const std::string& name : names) {
         if (is_supported(name)) continue;
         const Substitute* substitute = substitute_for(name);
-        leave_out(left_out, "the extension " + printable(name), substitute ? substitute->what : "not supported");
+        leave_out(left_out, "the extension " + excerpt(name), substitute ? substitute->what : "not supported");
     }
 }
 
@@ -188,14 +187,14 @@ JsonObject GltfDocument::element(const char* key, std::size_t index, const std::
     const Json& json = all[index];
     const std::string numbered = what + " " + std::to_string(index);
     const std::string name = JsonObject(json, numbered).text("name");
-    return {json, name.empty() ? numbered : what + " '" + printable(name) + "'"};
+    return {json, name.empty() ? numbered : what + " '" + excerpt(name) + "'"};
 }
 
 std::string GltfDocument::resource(const std::string& uri) const {
     if (!is_data_uri(uri)) {
         const std::string name = percent_decoded(uri);
         if (name.find('\0') != std::string::npos) {
-            throw invalid_input("the URI '" + printable(uri) + "' is not the name of a file; correct it");
+            throw invalid_input("the URI '" + excerpt(uri) + "' is not the name of a file; correct it");
         }
         return files_.read(files_.find(folder_, name).value_or(folder_ / name));
     }

@@ -7,7 +7,7 @@
 
 #include <lightcuts/core/invalid_input.hpp>
 
-#include "io/printable.hpp"
+#include "escape.hpp"
 #include "io/uri.hpp"
 #include "text_file.hpp"
 #include "texture.hpp"
@@ -64,7 +64,7 @@ std::size_t uv_number(const JsonObject& info, const JsonObject& material) {
 /// "the second texture of ..." is named by its file or its own name.
 std::string name_of_image(const JsonObject& image) {
     const std::string uri = image.text("uri");
-    return !uri.empty() && !is_data_uri(uri) ? printable(uri) : image.name();
+    return !uri.empty() && !is_data_uri(uri) ? excerpt(uri) : image.name();
 }
 
 }  // namespace

@@ -15,12 +15,12 @@
 #include <glm/matrix.hpp>
 #include <lightcuts/core/invalid_input.hpp>
 
+#include "escape.hpp"
 #include "io/gltf_document.hpp"
 #include "io/gltf_materials.hpp"
 #include "io/gltf_mesh.hpp"
 #include "io/gltf_nodes.hpp"
 #include "io/gltf_pose.hpp"
-#include "io/printable.hpp"
 #include "io/world_origin.hpp"
 #include "text_file.hpp"
 
@@ -202,7 +202,7 @@ private:
         const std::string own_name = JsonObject(lights[index], "light " + std::to_string(index)).text("name");
         const std::string name = own_name.empty() ? json.text("name") : own_name;
         const JsonObject source(lights[index],
-                                name.empty() ? "light " + std::to_string(index) : "light '" + printable(name) + "'");
+                                name.empty() ? "light " + std::to_string(index) : "light '" + excerpt(name) + "'");
         const float brightness = source.number_in("intensity", 1.0f, 0.0f, std::numeric_limits<float>::max());
         const glm::vec3 intensity = source.color("color", glm::vec3(1.0f)) * brightness;
         const glm::vec3 position(glm::dvec3(nodes_.to_world(node)[3]) - scene_.origin);
@@ -226,7 +226,7 @@ private:
             scene_.spots.push_back(
                 {position, direction(source, node), intensity, {static_cast<float>(inner), static_cast<float>(outer)}});
         } else {
-            source.fail("is of the unknown type '" + printable(type) + "'; use point, spot or directional");
+            source.fail("is of the unknown type '" + excerpt(type) + "'; use point, spot or directional");
         }
     }
 

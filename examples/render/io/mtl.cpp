@@ -8,8 +8,8 @@
 
 #include <glm/common.hpp>
 
+#include "escape.hpp"
 #include "io/obj_lines.hpp"
-#include "io/printable.hpp"
 #include "text_file.hpp"
 
 namespace render {
@@ -126,7 +126,7 @@ private:
                                         [&](const IgnoredKeyword& k) { return k.keyword == keyword; });
         if (known == ignored_keywords.end()) {
             if (!std::exchange(knows_unknown_, true)) {
-                leave_out(library_.left_out, "'" + printable(as_written) + "' in " + place(),
+                leave_out(library_.left_out, "'" + excerpt(as_written) + "' in " + place(),
                           "such statements are unknown");
             }
         } else if (known->why) {
@@ -139,7 +139,7 @@ private:
     float number(std::string_view word) const {
         const auto value = parse_number(word);
         const bool usable = value && std::isfinite(static_cast<float>(*value)) && *value >= 0.0;
-        if (!usable) fail("'" + printable(word) + "' is not a finite positive number; correct it");
+        if (!usable) fail("'" + excerpt(word) + "' is not a finite positive number; correct it");
         return static_cast<float>(*value);
     }
 
@@ -243,7 +243,7 @@ private:
         const std::string_view word = take_word();
         const auto value = parse_number(word);
         if (!value || !std::isfinite(static_cast<float>(*value))) {
-            fail("'" + printable(word) + "' is not a finite number; correct it");
+            fail("'" + excerpt(word) + "' is not a finite number; correct it");
         }
         return *value;
     }

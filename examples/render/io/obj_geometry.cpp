@@ -8,8 +8,8 @@
 #include <map>
 #include <utility>
 
+#include "escape.hpp"
 #include "io/obj_lines.hpp"
-#include "io/printable.hpp"
 #include "text_file.hpp"
 
 namespace render {
@@ -88,7 +88,7 @@ private:
     void note_unknown(std::string_view keyword) {
         if (knows_unknown_) return;
         knows_unknown_ = true;
-        leave_out(geometry_.left_out, "'" + printable(keyword) + "' in line " + std::to_string(line_),
+        leave_out(geometry_.left_out, "'" + excerpt(keyword) + "' in line " + std::to_string(line_),
                   "such statements are unknown");
     }
 
@@ -104,7 +104,7 @@ private:
             const auto value = parse_number(word);
             // What a float cannot hold cannot be rendered.
             if (!value || !std::isfinite(static_cast<float>(*value))) {
-                fail("'" + printable(word) + "' is not a finite number; correct it");
+                fail("'" + excerpt(word) + "' is not a finite number; correct it");
             }
             numbers_.push_back(*value);
         }
@@ -150,7 +150,7 @@ private:
             const CornerForm own = parse_corner(word, corner);
             if (geometry_.corners.size() == first) form = own;
             if (own != form) {
-                fail("'" + printable(words_.front()) + "' and '" + printable(word) +
+                fail("'" + excerpt(words_.front()) + "' and '" + excerpt(word) +
                      "' are written differently; all vertices of a face need the same parts");
             }
             geometry_.corners.push_back(corner);
@@ -185,7 +185,7 @@ private:
             if (end == std::string_view::npos) return parts;
             rest.remove_prefix(end + 1);
         }
-        fail("'" + printable(word) + "' is not a face's vertex; write v, v/t, v//n or v/t/n");
+        fail("'" + excerpt(word) + "' is not a face's vertex; write v, v/t, v//n or v/t/n");
     }
 
     std::int32_t index(std::string_view text, std::size_t count, LargestIndex& largest) const {
@@ -195,7 +195,7 @@ private:
         const auto known = static_cast<std::int64_t>(count);
         constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
         if (!whole || value == 0 || value > most || -value > known) {
-            fail("'" + printable(text) + "' is not the index of a " + largest.what + "; correct the face");
+            fail("'" + excerpt(text) + "' is not the index of a " + largest.what + "; correct the face");
         }
         const auto result = static_cast<std::int32_t>(value > 0 ? value - 1 : known + value);
         if (result > largest.index) {

@@ -5,8 +5,8 @@
 #include <glm/common.hpp>
 #include <lightcuts/core/invalid_input.hpp>
 
+#include "escape.hpp"
 #include "io/obj_lines.hpp"
-#include "io/printable.hpp"
 #include "luminance.hpp"
 #include "text_file.hpp"
 #include "texture.hpp"
@@ -105,7 +105,7 @@ std::vector<std::filesystem::path> ObjMaterials::find_libraries(const ObjName& n
 
 /// The library that has the name of the OBJ file itself, where the one that is named is missing.
 std::filesystem::path ObjMaterials::library_of_same_name(const ObjName& names, std::string_view missing) {
-    const std::string name = "the material library '" + printable(missing) + "'";
+    const std::string name = "the material library '" + excerpt(missing) + "'";
     const auto path = files_.find(obj_.parent_path(), obj_.stem().string() + ".mtl");
     if (!path) fail_at(obj_, names.line, name + " is not there; put it beside the OBJ file or remove the line");
     leave_out(scene_.left_out, name, "it is not there; " + path->filename().string() + " is used");
@@ -147,7 +147,7 @@ std::uint32_t ObjMaterials::add(const ObjName& use) {
             return add_default();
         }
         fail_at(obj_, use.line,
-                "the material '" + printable(use.name) + "' is in no library; add it or correct the name");
+                "the material '" + excerpt(use.name) + "' is in no library; add it or correct the name");
     }
     const MtlLibrary& library = libraries_[place->first];
     library_ = library.path;
@@ -231,7 +231,7 @@ std::filesystem::path ObjMaterials::path_of(const MtlMap& map) const {
         }
     }
     if (map.file.find('\0') != std::string::npos) {
-        fail_at(library_, map.line, "'" + printable(map.file) + "' is not the name of a file; correct it");
+        fail_at(library_, map.line, "'" + excerpt(map.file) + "' is not the name of a file; correct it");
     }
     return library_.parent_path() / map.file;
 }

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "escape.hpp"
 #include "io/file_kind.hpp"
 #include "io/picture_size.hpp"
-#include "io/printable.hpp"
 #include "text_file.hpp"
 
 namespace render {
@@ -43,7 +43,7 @@ private:
 };
 
 [[noreturn]] void refuse_line(std::string_view line, const std::string& because) {
-    throw std::runtime_error("'" + printable(line) + "' " + because);
+    throw std::runtime_error("'" + excerpt(line) + "' " + because);
 }
 
 /// The numbers after `NAME=`.
