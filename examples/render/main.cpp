@@ -232,5 +232,5 @@ int main(int argc, char** argv) {
     } catch (const std::bad_alloc&) {
         // What was asked for has been given back: there is room for a message.
         return fail(bad_input, memory_shortage());
-    } catch (const std::exception& e) { return fail(bad_input, e.what()); }
+    } catch (const std::exception& e) { return fail(bad_input, explanation(e)); }
 }
