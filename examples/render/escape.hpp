@@ -10,6 +10,6 @@ namespace render {
 std::string as_utf8(std::string_view text);
 
 /// The same with control characters written as `\n` or `\x1B`: one line that does nothing to a terminal.
-std::string printable(std::string_view text);
+std::string escaped(std::string_view text);
 
 }  // namespace render

@@ -52,6 +52,7 @@ void add_options(Fingerprint& print, const Options& o) {
     add("--splitting-threshold", o.splitting_threshold);
     add("--builder", o.builder);
     add("--area-points", o.area_points);
+    add("--area-lights", o.area_lights ? text_of(*o.area_lights) : "auto");
     add("--env-lights", o.env_lights);
     add("--env-scale", o.env_scale);
     add("--env-rotate", o.env_rotate);
@@ -73,32 +74,27 @@ void add_options(Fingerprint& print, const Options& o) {
 // Each of these takes its object apart into all of its members: with a new one they no longer compile, and nobody
 // forgets it here.
 
-void add_to(ContentHash& hash, const UvTransform& transform) {
-    const auto& [offset, u_axis, v_axis] = transform;
-    hash.add(offset).add(u_axis).add(v_axis);
+void add_to(ContentHash& hash, const TextureUse& use) {
+    const auto& [texture, uv_set, uv] = use;
+    const auto& [offset, u_axis, v_axis] = uv;
+    hash.add(texture).add(uv_set).add(offset).add(u_axis).add(v_axis);
 }
 
 void add_to(ContentHash& hash, const Material& material) {
-    const auto& [name, model, base_color, base_color_texture, base_color_uv, metallic, roughness,
-                 metallic_roughness_texture, metallic_roughness_uv, specular, exponent, ior, transmission,
-                 diffuse_transmission, diffuse_transmission_texture, diffuse_transmission_uv,
-                 diffuse_transmission_color, diffuse_transmission_color_texture, diffuse_transmission_color_uv,
-                 emission, emission_texture, emission_uv, double_sided, only_seen, alpha, alpha_cutoff, base_alpha,
-                 alpha_texture] = material;
-    hash.add(model).add(base_color).add(base_color_texture).add(metallic).add(roughness);
-    hash.add(metallic_roughness_texture).add(specular).add(exponent).add(ior).add(transmission);
-    hash.add(diffuse_transmission).add(diffuse_transmission_texture).add(diffuse_transmission_color);
-    hash.add(diffuse_transmission_color_texture).add(emission).add(emission_texture).add(double_sided);
-    hash.add(only_seen).add(alpha).add(alpha_cutoff).add(base_alpha).add(alpha_texture);
-    for (const UvTransform& uv :
-         {base_color_uv, metallic_roughness_uv, diffuse_transmission_uv, diffuse_transmission_color_uv, emission_uv}) {
-        add_to(hash, uv);
-    }
+    const auto& [name, model, base_color, base_color_texture, metallic, roughness, metallic_roughness_texture, specular,
+                 specular_tint, specular_texture, specular_weight, specular_weight_texture, exponent, ior, transmission,
+                 diffuse_transmission, diffuse_transmission_texture, diffuse_transmission_color,
+                 diffuse_transmission_color_texture, normal_texture, normal_scale, emission, emission_texture,
+                 double_sided, only_seen, alpha, alpha_cutoff, base_alpha, alpha_texture] = material;
+    hash.add(model).add(base_color).add(metallic).add(roughness).add(specular).add(specular_tint).add(specular_weight);
+    hash.add(exponent).add(ior).add(transmission).add(diffuse_transmission).add(diffuse_transmission_color);
+    hash.add(normal_scale).add(emission).add(double_sided).add(only_seen).add(alpha).add(alpha_cutoff).add(base_alpha);
+    for (const TextureUse* use : textures_of(material)) add_to(hash, *use);
 }
 
 void add_to(ContentHash& hash, const Texture& texture) {
-    const auto& [name, width, height, texels, wrap_u, wrap_v] = texture;
-    hash.add(width).add(height).add(texels).add(wrap_u).add(wrap_v);
+    const auto& [name, width, height, texels, wrap_u, wrap_v, filter] = texture;
+    hash.add(width).add(height).add(texels).add(wrap_u).add(wrap_v).add(filter);
 }
 
 void add_to(ContentHash& hash, const Environment& environment) {
@@ -116,12 +112,15 @@ void add_to(ContentHash& hash, const Background& background) {
 }
 
 void add_scene(Fingerprint& print, const Scene& scene) {
-    // Left out: names, what is only counted, and `lighting`, which has become lights and background.
-    const auto& [name, positions, normals, uvs, triangles, triangle_material, materials, textures, cameras, omni,
-                 oriented, spots, directional, spheres, sphere_points, virtual_lights, environment_lights, sun_lights,
-                 sky_lights, lighting, background, dropped_triangles, dropped_lights] = scene;
+    // Not in it: names, what is only counted, and `lighting`, which has become lights and background.
+    const auto& [name, origin, positions, normals, tangents, colors, uv_sets, triangles, triangle_material, materials,
+                 textures, cameras, omni, oriented, spots, directional, spheres, sphere_points, virtual_lights,
+                 environment_lights, sun_lights, sky_lights, lighting, background, dropped_triangles, dropped_lights,
+                 left_out] = scene;
     ContentHash surfaces, matter, lights, around;
-    surfaces.add(positions).add(normals).add(uvs).add(triangles).add(triangle_material);
+    surfaces.add(origin).add(positions).add(normals).add(tangents).add(colors).add(uv_sets.size());
+    for (const std::vector<glm::vec2>& uvs : uv_sets) surfaces.add(uvs);
+    surfaces.add(triangles).add(triangle_material);
     for (const Material& material : materials) add_to(matter, material);
     for (const Texture& texture : textures) add_to(matter, texture);
     lights.add(omni).add(oriented).add(spots).add(directional).add(spheres).add(sphere_points).add(virtual_lights);
@@ -133,8 +132,8 @@ void add_scene(Fingerprint& print, const Scene& scene) {
 }
 
 void add_camera(Fingerprint& print, const Camera& camera) {
-    const auto& [name, eye, target, up, vertical_fov] = camera;
-    print.add("the camera", text_of(ContentHash().add(eye).add(target).add(up).add(vertical_fov)));
+    const auto& [name, eye, target, up, vertical_fov, height, other_name] = camera;
+    print.add("the camera", text_of(ContentHash().add(eye).add(target).add(up).add(vertical_fov).add(height)));
 }
 
 /// Version and kinds of instructions: rays may differ by a rounding between them.

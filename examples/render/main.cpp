@@ -78,6 +78,9 @@ Camera scene_camera(const Scene& scene, const std::string& name) {
         if (camera.name == name) return camera;
         names += (names.empty() ? "" : ", ") + camera.name;
     }
+    for (const Camera& camera : scene.cameras) {
+        if (camera.other_name == name) return camera;
+    }
     throw lightcuts::invalid_input(scene.name + ": no camera '" + name + "'; there is " + names);
 }
 
@@ -91,13 +94,16 @@ Camera choose_camera(const Scene& scene, const Options& options) {
     } else {
         camera = scene_camera(scene, options.camera);
     }
+    if (options.fov && camera.height > 0.0) {
+        throw usage_error("--fov: the camera '" + camera.name + "' is orthographic, it has no field of view");
+    }
     if (options.fov) camera.vertical_fov = *options.fov;
     require_usable(camera, options.eye ? "--eye, --target" : scene.name + ": camera '" + camera.name + "'");
     return camera;
 }
 
 void warn(const std::string& message) {
-    std::fprintf(stderr, "lightcuts-render: warning: %s\n", printable(message).c_str());
+    std::fprintf(stderr, "lightcuts-render: warning: %s\n", escaped(message).c_str());
 }
 
 /// Says what becomes of finished tiles that an earlier run may have left.
@@ -110,7 +116,14 @@ void announce(const ResumeFile& file, const Options& options) {
     } else if (options.resume != file.is_there() && !options.quiet) {
         const char* state = options.resume ? "there are no finished tiles; starting from the beginning"
                                            : "starting over; --resume would have gone on with these finished tiles";
-        std::fprintf(stderr, "lightcuts-render: %s: %s\n", printable(name).c_str(), state);
+        std::fprintf(stderr, "lightcuts-render: %s: %s\n", escaped(name).c_str(), state);
+    }
+}
+
+void say_what_is_left_out(const Scene& scene, const Options& options) {
+    if (options.quiet) return;
+    for (const LeftOut& item : scene.left_out) {
+        std::fprintf(stderr, "lightcuts-render: left out: %s\n", escaped(item.what + ": " + item.why).c_str());
     }
 }
 
@@ -165,6 +178,7 @@ ExitStatus render_scene(Options options) {
     Stopwatch watch;
     Scene scene = prepare_scene(options);
     const Camera camera = choose_camera(scene, options);
+    say_what_is_left_out(scene, options);
     const RayScene rays(scene);
     RunReport report(options, scene, threads);
     report.seconds.load = watch.lap();
@@ -177,7 +191,7 @@ ExitStatus render_scene(Options options) {
         report.seconds.particles = watch.lap();
         const auto shader = make_shader(scene, rays, options);
         report.seconds.tree = watch.lap();
-        const View view(camera, options.width, options.height);
+        const View view(camera, scene.origin, options.width, options.height);
         const SurfaceFinder surfaces(scene, rays, shade);
         report.adaptation = options.adaptation ? *options.adaptation : measure_adaptation(view, surfaces, *shader);
         shader->adapt(report.adaptation);
@@ -215,7 +229,7 @@ ExitStatus run(const Options& options) {
 }
 
 ExitStatus fail(ExitStatus status, const std::string& message) {
-    std::fprintf(stderr, "lightcuts-render: %s\n", printable(message).c_str());
+    std::fprintf(stderr, "lightcuts-render: %s\n", escaped(message).c_str());
     return status;
 }
 

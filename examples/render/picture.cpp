@@ -6,12 +6,10 @@
 #include <new>
 #include <utility>
 
-#include <ImathBox.h>
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfIO.h>
-#include <ImfInputFile.h>
 #include <ImfOutputFile.h>
 #include <glm/common.hpp>
 #include <lightcuts/core/invalid_input.hpp>
@@ -20,8 +18,10 @@
 #define STB_IMAGE_WRITE_STATIC
 #include <stb_image_write.h>
 
+#include "io/exr_picture.hpp"
 #include "luminance.hpp"
 #include "output_file.hpp"
+#include "text_file.hpp"
 
 namespace render {
 
@@ -111,45 +111,7 @@ Picture read_exr(const std::filesystem::path& path) {
     if (!std::filesystem::is_regular_file(path, ignored)) {
         throw invalid_input(path.string() + ": no such file; give an OpenEXR picture");
     }
-    try {
-        Imf::InputFile file(path.c_str());
-        const Imath::Box2i window = file.header().dataWindow();
-        Picture picture(window.max.x - window.min.x + 1, window.max.y - window.min.y + 1);
-        const Imf::ChannelList& in_file = file.header().channels();
-        const bool grey = !in_file.findChannel("R") && in_file.findChannel("Y");
-
-        // OpenEXR addresses pixels from the origin of coordinates, not from the window's corner.
-        const auto from_origin = [&](const Imf::Slice& s) {
-            Imf::Slice moved = s;
-            moved.base -= static_cast<std::ptrdiff_t>(s.xStride) * window.min.x +
-                          static_cast<std::ptrdiff_t>(s.yStride) * window.min.y;
-            return moved;
-        };
-        Imf::FrameBuffer buffer;
-        for (int c = 0; c < 3; ++c) {
-            if (!in_file.findChannel(grey ? "Y" : color_names[c])) throw std::runtime_error("no R, G and B");
-            if (grey && c > 0) break;
-            buffer.insert(grey ? "Y" : color_names[c],
-                          from_origin(slice(&picture.pixels[0][c], picture.width, sizeof(glm::vec3))));
-        }
-        for (auto channel = in_file.begin(); channel != in_file.end(); ++channel) {
-            const std::string name = channel.name();
-            if (buffer.findSlice(name)) continue;
-            if (channel.channel().xSampling != 1 || channel.channel().ySampling != 1) continue;
-            picture.add_channel(name);
-        }
-        for (const Picture::Channel& channel : picture.channels) {
-            buffer.insert(channel.name, from_origin(slice(channel.values.data(), picture.width, sizeof(float))));
-        }
-        file.setFrameBuffer(buffer);
-        file.readPixels(window.min.y, window.max.y);
-        if (grey) {
-            for (glm::vec3& pixel : picture.pixels) pixel = glm::vec3(pixel.x);
-        }
-        return picture;
-    } catch (const std::exception& e) {
-        throw invalid_input(path.string() + ": cannot be read as an OpenEXR picture (" + e.what() + ")");
-    }
+    return exr_picture(read_file(path), path.string(), ExrUse::picture);
 }
 
 std::vector<char> png_bytes(int width, int height, const std::vector<glm::vec3>& colors) {

@@ -42,7 +42,7 @@ std::vector<char> exr_bytes(const Picture& picture);
 /// Writes `exr_bytes` in one step. throws: invalid_input with the path.
 void write_exr(const std::filesystem::path& path, const Picture& picture);
 
-/// Reads R, G, B (or Y as grey) and all other channels as floats, whatever their type in the file.
+/// Reads the colour and all other channels of an OpenEXR file, as `exr_picture` does.
 /// throws: invalid_input with the path when it cannot be read or has no colour.
 Picture read_exr(const std::filesystem::path& path);
 

@@ -60,7 +60,7 @@ TEST(Fingerprint, NamesWhateverChangesThePicture) {
         {"the scene's triangles", [](Pictured& p) { p.scene.positions[1].x = 1.0000001f; }},
         {"the scene's triangles", [](Pictured& p) { p.scene.normals.resize(3); }},
         {"the scene's materials", [](Pictured& p) { p.scene.materials[0].roughness = 0.9f; }},
-        {"the scene's materials", [](Pictured& p) { p.scene.materials[0].emission_uv.offset.y = 0.1f; }},
+        {"the scene's materials", [](Pictured& p) { p.scene.materials[0].emission_texture.uv.offset.y = 0.1f; }},
         {"the scene's materials", [](Pictured& p) { p.scene.textures[0].texels[0].w = 0.4f; }},
         {"the lights", [](Pictured& p) { p.scene.omni[0].intensity.z = 2.0f; }},
         {"the lights", [](Pictured& p) { p.scene.virtual_lights.resize(1); }},
