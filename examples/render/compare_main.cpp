@@ -113,7 +113,7 @@ int run(int argc, const char* const* argv) {
 }
 
 int fail(int status, const std::string& message) {
-    std::fprintf(stderr, "lightcuts-compare: %s\n", printable(message).c_str());
+    std::fprintf(stderr, "lightcuts-compare: %s\n", escaped(message).c_str());
     return status;
 }
 

@@ -48,7 +48,7 @@ void append_escaped(std::string& to, std::string_view bytes) {
 }
 
 template <class IsEscaped>
-std::string escaped(std::string_view text, IsEscaped&& is_escaped) {
+std::string with_escapes(std::string_view text, IsEscaped&& is_escaped) {
     std::string result;
     while (!text.empty()) {
         const std::size_t length = character_length(text);
@@ -66,13 +66,13 @@ std::string escaped(std::string_view text, IsEscaped&& is_escaped) {
 }  // namespace
 
 std::string as_utf8(std::string_view text) {
-    return escaped(text, [](std::string_view) { return false; });
+    return with_escapes(text, [](std::string_view) { return false; });
 }
 
-std::string printable(std::string_view text) { return escaped(text, is_control); }
+std::string escaped(std::string_view text) { return with_escapes(text, is_control); }
 
 std::string excerpt(std::string_view text, std::size_t most) {
-    return text.size() > most ? printable(text.substr(0, most)) + "..." : printable(text);
+    return text.size() > most ? escaped(text.substr(0, most)) + "..." : escaped(text);
 }
 
 }  // namespace render

@@ -11,7 +11,7 @@ namespace render {
 std::string as_utf8(std::string_view text);
 
 /// The same with control characters written as `\n` or `\x1B`: one line that does nothing to a terminal.
-std::string printable(std::string_view text);
+std::string escaped(std::string_view text);
 
 /// The same of what stands in a file, as a message can quote it: cut after `most` bytes.
 std::string excerpt(std::string_view text, std::size_t most = 80);

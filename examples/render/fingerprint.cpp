@@ -119,8 +119,9 @@ void add_scene(Fingerprint& print, const Scene& scene) {
                  environment_lights, sun_lights, sky_lights, lighting, background, dropped_triangles, dropped_lights,
                  left_out] = scene;
     ContentHash surfaces, matter, lights, around;
-    surfaces.add(origin).add(positions).add(normals).add(tangents).add(colors).add(triangles).add(triangle_material);
-    for (const auto& uvs : uv_sets) surfaces.add(uvs);
+    surfaces.add(origin).add(positions).add(normals).add(tangents).add(colors).add(uv_sets.size());
+    for (const std::vector<glm::vec2>& uvs : uv_sets) surfaces.add(uvs);
+    surfaces.add(triangles).add(triangle_material);
     for (const Material& material : materials) add_to(matter, material);
     for (const Texture& texture : textures) add_to(matter, texture);
     lights.add(omni).add(oriented).add(spots).add(directional).add(spheres).add(sphere_points).add(virtual_lights);

@@ -103,7 +103,7 @@ Camera choose_camera(const Scene& scene, const Options& options) {
 }
 
 void warn(const std::string& message) {
-    std::fprintf(stderr, "lightcuts-render: warning: %s\n", printable(message).c_str());
+    std::fprintf(stderr, "lightcuts-render: warning: %s\n", escaped(message).c_str());
 }
 
 /// Says what becomes of finished tiles that an earlier run may have left.
@@ -116,14 +116,14 @@ void announce(const ResumeFile& file, const Options& options) {
     } else if (options.resume != file.is_there() && !options.quiet) {
         const char* state = options.resume ? "there are no finished tiles; starting from the beginning"
                                            : "starting over; --resume would have gone on with these finished tiles";
-        std::fprintf(stderr, "lightcuts-render: %s: %s\n", printable(name).c_str(), state);
+        std::fprintf(stderr, "lightcuts-render: %s: %s\n", escaped(name).c_str(), state);
     }
 }
 
 void say_what_is_left_out(const Scene& scene, const Options& options) {
     if (options.quiet) return;
     for (const LeftOut& item : scene.left_out) {
-        std::fprintf(stderr, "lightcuts-render: left out: %s\n", one_line(item.what + ": " + item.why).c_str());
+        std::fprintf(stderr, "lightcuts-render: left out: %s\n", escaped(item.what + ": " + item.why).c_str());
     }
 }
 
@@ -229,7 +229,7 @@ ExitStatus run(const Options& options) {
 }
 
 ExitStatus fail(ExitStatus status, const std::string& message) {
-    std::fprintf(stderr, "lightcuts-render: %s\n", printable(message).c_str());
+    std::fprintf(stderr, "lightcuts-render: %s\n", escaped(message).c_str());
     return status;
 }
 
@@ -246,5 +246,5 @@ int main(int argc, char** argv) {
     } catch (const std::bad_alloc&) {
         // What was asked for has been given back: there is room for a message.
         return fail(bad_input, memory_shortage());
-    } catch (const std::exception& e) { return fail(bad_input, e.what()); }
+    } catch (const std::exception& e) { return fail(bad_input, explanation(e)); }
 }

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <exception>
 #include <new>
+#include <optional>
 
 #include <sys/mman.h>
 #include <sys/resource.h>
@@ -18,6 +19,13 @@ namespace {
 
 const char* name = "lightcuts";
 
+/// The limit of addresses that the process was given, if any.
+std::optional<double> address_limit() {
+    rlimit limit{};
+    const bool limited = ::getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
+    return limited ? std::optional(static_cast<double>(limit.rlim_cur)) : std::nullopt;
+}
+
 [[noreturn]] void end() {
     char reason[256] = "unknown error";
     if (const std::exception_ptr current = std::current_exception()) {
@@ -26,7 +34,7 @@ const char* name = "lightcuts";
         } catch (const std::bad_alloc&) {
             std::snprintf(reason, sizeof reason, "%s", memory_shortage());
         } catch (const std::exception& e) {
-            std::snprintf(reason, sizeof reason, "%s", is_memory_short() ? memory_shortage() : e.what());
+            std::snprintf(reason, sizeof reason, "%s", is_memory_short() ? memory_shortage() : explanation(e).c_str());
         } catch (...) {}
     }
     delete_temporaries();
@@ -57,13 +65,11 @@ bool is_memory_short() {
 const char* memory_shortage() {
     static char text[256];
     const double used = static_cast<double>(peak_memory()) / 1e6;
-    rlimit limit{};
-    if (::getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY) {
+    if (const auto limit = address_limit()) {
         std::snprintf(text, sizeof text,
                       "not enough memory: it takes more than the %.0f MB of addresses that are allowed (ulimit -v), of "
-                      "which %.0f MB were in use; allow more, or give a smaller scene, --size or "
-                      "--threads",
-                      static_cast<double>(limit.rlim_cur) / 1e6, used);
+                      "which %.0f MB were in use; allow more, or give a smaller scene, --size or --threads",
+                      *limit / 1e6, used);
     } else {
         std::snprintf(text, sizeof text,
                       "not enough memory: it takes more than the %.0f MB that were in use when the system gave no "
@@ -71,6 +77,14 @@ const char* memory_shortage() {
                       used);
     }
     return text;
+}
+
+std::string explanation(const std::exception& problem) {
+    const std::string words = problem.what();
+    // TBB's, whoever passes them on.
+    if (words.find("pthread_create") == std::string::npos) return words;
+    if (address_limit() || is_memory_short()) return memory_shortage();
+    return words + "; give a smaller --threads";
 }
 
 void watch_termination(const char* program) {

@@ -142,7 +142,8 @@ Json to_json(const RunReport& report) {
                            {"max", finite_or_null(s.largest_error_bound)}};
     json["clamp"] = clamp_json(report);
     json["left_out"] = Json::array();
-    for (const LeftOut& item : scene.left_out) json["left_out"].push_back({{"what", item.what}, {"why", item.why}});
+    for (const LeftOut& item : scene.left_out)
+        json["left_out"].push_back({{"what", as_utf8(item.what)}, {"why", as_utf8(item.why)}});
     json["peak_memory_bytes"] = peak_memory();
     json["options"] = options_json(report);
     if (report.error) json["error"] = to_json(*report.error);
@@ -150,9 +151,9 @@ Json to_json(const RunReport& report) {
 }
 
 std::string interruption(const RunReport& report) {
-    std::string text = "interrupted; what was finished is in " + printable(report.picture.string());
+    std::string text = "interrupted; what was finished is in " + escaped(report.picture.string());
     if (report.picture != report.options.output) {
-        text += "; a finished picture has the name " + printable(report.options.output.string());
+        text += "; a finished picture has the name " + escaped(report.options.output.string());
     }
     return text;
 }
@@ -162,7 +163,7 @@ std::string summary(const RunReport& report) {
     const RenderStatistics& s = report.statistics;
     std::ostringstream text;
     text << std::setprecision(3);
-    text << printable(report.options.scene) << ": " << scene.triangles.size() << " triangles, " << scene.light_count()
+    text << escaped(report.options.scene) << ": " << scene.triangles.size() << " triangles, " << scene.light_count()
          << " lights\n";
     text << report.options.method << ": " << report.seconds.load << " s loading, " << report.seconds.tree
          << " s trees, " << report.seconds.render << " s rendering, "
@@ -173,7 +174,7 @@ std::string summary(const RunReport& report) {
         text << "relative RMSE " << 100.0 * report.error->relative_rmse << " %, 99.9th percentile "
              << 100.0 * report.error->p999_relative << " %\n";
     }
-    text << (report.interrupted ? interruption(report) : "written: " + printable(report.picture.string())) << "\n";
+    text << (report.interrupted ? interruption(report) : "written: " + escaped(report.picture.string())) << "\n";
     return text.str();
 }
 

@@ -1,6 +1,7 @@
 #include "temporary_file.hpp"
 
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <climits>
 #include <cstdio>

@@ -1,7 +1,6 @@
 #include "view.hpp"
 
 #include <cmath>
-#include <sstream>
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -69,7 +68,7 @@ EyeRay View::ray(float x, float y) const {
 }
 
 void require_usable(const Camera& camera, const std::string& where) {
-    const auto require = [&](bool good, const std::string& problem) {
+    const auto require = [&](bool good, const char* problem) {
         if (!good) throw lightcuts::invalid_input(where + ": " + problem);
     };
     require(is_finite(camera.eye) && is_finite(camera.target) && lightcuts::is_finite(camera.up),

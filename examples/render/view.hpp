@@ -45,7 +45,7 @@ private:
 };
 
 /// throws: invalid_input, in one line that begins with `where`, unless `camera` spans a picture: all coordinates
-/// finite, target apart from the eye, lengths that floats can square, up not along the view, field of view within
+/// finite, target apart from the eye, distances that can be squared, up not along the view, field of view within
 /// (0, 180) degrees.
 void require_usable(const Camera& camera, const std::string& where);
 

@@ -188,9 +188,7 @@ TEST_F(BuiltinPictures, AreNeitherBlackNorNotANumber) {
             lit_pixels += pixel.g > 0.0f ? 1 : 0;
         }
         EXPECT_GT(lit_pixels, name == "test-card" ? picture.size() / 4 : picture.size() / 2) << name;
-        if (name == "screens") {
-            EXPECT_EQ(report("render.json").at("lights").at("oriented"), 614'528);
-        }
+        if (name == "screens") { EXPECT_EQ(report("render.json").at("lights").at("oriented"), 614'528); }
     }
 }
 

@@ -7,12 +7,12 @@
 namespace {
 
 using render::as_utf8;
-using render::printable;
+using render::escaped;
 
 TEST(Escape, LeavesTextAlone) {
     for (const std::string text : {"", "a/b c.exr", "\xc3\xa9t\xc3\xa9", "\xe2\x82\xac", "\xf0\x9f\x8c\x9e", "\\x"}) {
         EXPECT_EQ(as_utf8(text), text);
-        EXPECT_EQ(printable(text), text);
+        EXPECT_EQ(escaped(text), text);
     }
 }
 
@@ -25,13 +25,13 @@ TEST(Escape, WritesBytesThatAreNoCharacter) {
     EXPECT_EQ(as_utf8("a\nb"), "a\nb");
 }
 
-TEST(Escape, PrintableTextStaysInItsLine) {
-    EXPECT_EQ(printable("a\nb\r\tc"), "a\\nb\\r\\tc");
-    EXPECT_EQ(printable("\x1b[31m\x7f"), "\\x1B[31m\\x7F");
-    EXPECT_EQ(printable("\xc2\x9b"
-                        "31m \xc2\xa0"),
+TEST(Escape, EscapedTextStaysInItsLine) {
+    EXPECT_EQ(escaped("a\nb\r\tc"), "a\\nb\\r\\tc");
+    EXPECT_EQ(escaped("\x1b[31m\x7f"), "\\x1B[31m\\x7F");
+    EXPECT_EQ(escaped("\xc2\x9b"
+                      "31m \xc2\xa0"),
               "\\xC2\\x9B31m \xc2\xa0");
-    EXPECT_EQ(printable(std::string_view("\0", 1)), "\\x00");
+    EXPECT_EQ(escaped(std::string_view("\0", 1)), "\\x00");
 }
 
 TEST(Escape, AgreesWithWhatJsonTakes) {

@@ -14,8 +14,9 @@
 class Signals : public Programs {
 protected:
     static constexpr int all[] = {SIGINT, SIGTERM, SIGHUP};
-    /// Minutes of work in many tiles.
-    const std::string long_run = "room.obj --method exhaustive --area-points 2000 --size 1000x800 --threads 1" + view;
+    /// Minutes of work in many tiles, all of which see lit surfaces.
+    const std::string long_run =
+        "room.obj --method exhaustive --area-points 2000 --size 1000x800 --threads 1 --eye 0,2.5,0.5 --target 0,0,0 ";
 
     std::unique_ptr<Process> start_rendering(const std::string& arguments, const std::function<void()>& prepare = {}) {
         std::filesystem::remove(folder / "render.resume");
