@@ -258,4 +258,63 @@ TEST(EmitterLights, GoWhereTheTextureTransformSays) {
     for (const auto& light : s.oriented) EXPECT_GT(light.position.x, 0.98f);
 }
 
+/// `count` lamps apart from each other; every tenth is a hundred times as large. Double-sided if `both`.
+Scene many_lamps(int count, bool both = false) {
+    Scene s = empty_scene();
+    s.materials[0].emission = glm::vec3(3.0f, 2.0f, 1.0f);
+    s.materials[0].double_sided = both;
+    for (int i = 0; i < count; ++i) {
+        const float size = i % 10 == 0 ? 1.0f : 0.1f;
+        Modeller(s).quad({3.0f * static_cast<float>(i), 0, 0}, {size, 0, 0}, {0, size, 0});
+    }
+    return s;
+}
+
+glm::dvec3 power_of(const Scene& s) {
+    glm::dvec3 sum(0.0);
+    for (const auto& light : s.oriented) sum += glm::dvec3(light.intensity);
+    return sum;
+}
+
+TEST(EmitterLights, OfVeryManyLampsShareATotalByPower) {
+    for (const bool both : {false, true}) {
+        Scene s = many_lamps(10'000, both);
+        add_emitter_lights(s, {.points = 64});
+        EXPECT_LE(s.oriented.size(), 200'000u);
+        EXPECT_GT(s.oriented.size(), 60'000u);
+        const double area = 1000 * 1.0 + 9000 * 0.01;
+        const glm::dvec3 power = power_of(s);
+        EXPECT_NEAR(power.x, (both ? 2.0 : 1.0) * 3.0 * area, 1e-3 * 3.0 * area);
+        // The large ones have the most that one may have, the small ones a hundredth of the power each.
+        std::vector<int> lights(10'000);
+        for (const auto& light : s.oriented) ++lights[static_cast<std::size_t>(light.position.x / 3.0f)];
+        const int sides = both ? 2 : 1;
+        for (std::size_t i = 0; i < lights.size(); ++i) {
+            EXPECT_GE(lights[i], sides);
+            EXPECT_LE(lights[i], 64 * sides);
+            if (i % 10 == 0) { EXPECT_EQ(lights[i], 64 * sides); }
+        }
+    }
+}
+
+TEST(EmitterLights, OfFewLampsAreAsManyAsWanted) {
+    Scene s = many_lamps(100);
+    add_emitter_lights(s, {.points = 4096});
+    EXPECT_EQ(s.oriented.size(), 409'600u);
+    s = many_lamps(3125);
+    add_emitter_lights(s, {.points = 64});
+    EXPECT_EQ(s.oriented.size(), 200'000u);
+    // A total that is given holds for few as well; below one each it cannot go.
+    s = many_lamps(100);
+    add_emitter_lights(s, {.points = 64, .total = 1000});
+    EXPECT_LE(s.oriented.size(), 1000u);
+    EXPECT_GT(s.oriented.size(), 900u);
+    s = many_lamps(100);
+    add_emitter_lights(s, {.points = 64, .total = 10});
+    EXPECT_EQ(s.oriented.size(), 100u);
+    s = many_lamps(4000);
+    add_emitter_lights(s, {.points = 64, .total = 0});
+    EXPECT_EQ(s.oriented.size(), 256'000u);
+}
+
 }  // namespace

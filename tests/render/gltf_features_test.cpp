@@ -148,6 +148,10 @@ TEST(GltfSkin, RefusesJointsAndWeightsThatAreNotThere) {
     file.json["skins"][0]["joints"] = Json::array();
     EXPECT_THAT(refusal([&] { file.load(); }), HasSubstr("joint 0"));
     file = skinned(Json::object(), Json::object());
+    file.json["meshes"][0]["primitives"][0]["attributes"]["JOINTS_0"] = file.add(std::vector<float>(16, 1e30f), "VEC4",
+                                                                                 4);
+    EXPECT_THAT(refusal([&] { file.load(); }), HasSubstr("a joint is no index"));
+    file = skinned(Json::object(), Json::object());
     file.json["nodes"][1]["skin"] = 3;
     EXPECT_THAT(refusal([&] { file.load(); }), HasSubstr("skin 3"));
     file = skinned(Json::object(), Json::object());
