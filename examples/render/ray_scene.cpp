@@ -47,7 +47,7 @@ void require(RTCDevice device) {
 
 }  // namespace
 
-RayScene::RayScene(const Scene& scene) : source_(scene) {
+RayScene::RayScene(const Scene& scene, const RayOptions& options) : source_(scene) {
     const std::vector<bool> passes = transmissive_materials(scene);
     for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
         (passes[scene.triangle_material[t]] ? translucent_ : opaque_).push_back(t);
@@ -60,6 +60,7 @@ RayScene::RayScene(const Scene& scene) : source_(scene) {
     try {
         // A high-quality hierarchy would split triangles and report one surface twice to the filters.
         rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_MEDIUM);
+        if (options.robust) rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
         if (!opaque_.empty()) add_geometry(opaque_, false);
         if (!translucent_.empty()) add_geometry(translucent_, true);
         rtcCommitScene(scene_);
