@@ -1,6 +1,8 @@
 #include "ray_scene.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -17,11 +19,43 @@ constexpr unsigned translucent_geometry = 1;
 /// Below this a ray counts as blocked: less than a step of an 8-bit picture.
 constexpr float blocked_below = 1e-4f;
 
+/// Where a shadow ray has passed through a surface.
+struct Passage {
+    std::uint32_t triangle = 0;
+    float distance = 0;
+};
+
 /// A shadow ray's context: Embree hands it to the filter, which multiplies the tints.
 struct LightContext {
     QueryContext embree;
     glm::vec3 passed{1.0f};
+    std::array<Passage, 4> last;  ///< the latest passages, in a ring
+    unsigned passages = 0;        ///< so far
 };
+
+/// True iff two corners of each lie at the same places.
+bool share_an_edge(const Scene& scene, std::uint32_t a, std::uint32_t b) {
+    const auto is_corner_of_b = [&](std::uint32_t corner) {
+        const glm::uvec3 t = scene.triangles[b];
+        const glm::vec3& p = scene.positions[corner];
+        return p == scene.positions[t.x] || p == scene.positions[t.y] || p == scene.positions[t.z];
+    };
+    const glm::uvec3 t = scene.triangles[a];
+    return int{is_corner_of_b(t.x)} + int{is_corner_of_b(t.y)} + int{is_corner_of_b(t.z)} == 2;
+}
+
+/// Notes a passage. False if it is one that is known: a ray through an edge meets the triangles on both sides of it.
+bool is_new(const Scene& scene, const Passage& here, LightContext& context) {
+    constexpr float same_distance = 1e-4f;  // relative: planes that meet at the edge are intersected each on its own
+    const unsigned known = std::min<unsigned>(context.passages, static_cast<unsigned>(context.last.size()));
+    for (unsigned i = 0; i < known; ++i) {
+        const Passage& other = context.last[i];
+        const bool near = std::abs(here.distance - other.distance) <= same_distance * here.distance;
+        if (near && share_an_edge(scene, here.triangle, other.triangle)) return false;
+    }
+    context.last[context.passages++ % context.last.size()] = here;
+    return true;
+}
 
 RTCRay make_ray(const glm::vec3& origin, const glm::vec3& direction, float end) {
     RTCRay ray{};
@@ -146,6 +180,11 @@ void RayScene::pass_light(const RTCFilterFunctionNArguments* arguments) {
     if (arguments->valid[0] == 0) return;
     auto& context = *reinterpret_cast<LightContext*>(arguments->context);
     const std::uint32_t triangle = self.translucent_[RTCHitN_primID(arguments->hit, 1, 0)];
+    const Passage here{triangle, RTCRayN_tfar(arguments->ray, 1, 0)};
+    if (!is_new(self.source_, here, context)) {
+        arguments->valid[0] = 0;
+        return;
+    }
     context.passed *= tint_at(self.source_, triangle, RTCHitN_u(arguments->hit, 1, 0), RTCHitN_v(arguments->hit, 1, 0));
     const glm::vec3& passed = context.passed;
     const bool blocked = std::max({passed.x, passed.y, passed.z}) < blocked_below;

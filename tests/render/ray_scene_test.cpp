@@ -212,4 +212,39 @@ TEST(RayScene, ShowsAFloorWithoutHoles) {
     }
 }
 
+TEST(RayScene, TintsAShadowRayOncePerPane) {
+    Random random(3);
+    for (const bool welded : {true, false}) {
+        Scene panes;
+        for (const float y : {0.0f, 1.0f}) {
+            const auto first = static_cast<std::uint32_t>(panes.positions.size());
+            const float half = 10.0f;
+            for (const glm::vec3 p :
+                 {glm::vec3(-half, y, -half), {half, y, -half}, {half, y, half}, {-half, y, half}}) {
+                panes.positions.push_back(p);
+            }
+            add_quad(panes, first + 3, first + 2, first + 1, first);
+            if (welded) continue;
+            // The second triangle has corners of its own, as flat faces do in many files.
+            glm::uvec3& second = panes.triangles.back();
+            for (int i = 0; i < 3; ++i) {
+                panes.positions.push_back(panes.positions[second[i]]);
+                second[i] = static_cast<std::uint32_t>(panes.positions.size() - 1);
+            }
+        }
+        finish(panes);
+        panes.materials[0].transmission = 1.0f;
+        panes.materials[0].base_color = glm::vec3(0.5f);
+        const RayScene rays(panes);
+        for (int i = 0; i < 20'000; ++i) {
+            const glm::vec3 from(uniform(random, -3.0f, 3.0f), -1.0f, uniform(random, -3.0f, 3.0f));
+            glm::dvec3 at(static_cast<double>(uniform(random, -3.0f, 3.0f)), i % 2,
+                          static_cast<double>(uniform(random, -3.0f, 3.0f)));
+            if (i % 4 < 2) at.z = -at.x;  // on the edge that the triangles of a pane share
+            const glm::vec3 direction(glm::normalize(at - glm::dvec3(from)));
+            ASSERT_EQ(rays.to_infinity(from, direction), glm::vec3(0.25f)) << (welded ? "welded, ray " : "ray ") << i;
+        }
+    }
+}
+
 }  // namespace
