@@ -59,7 +59,7 @@ public:
     }
 
     Row measure(int runs) const {
-        const render::RayScene not_robust(work_.scene(), {.robust = false});
+        const render::RayScene not_robust(work_.scene(), render::RayTracer(), {.robust = false});
         Way fast{not_robust, {}, {}, {}, {}}, robust{work_.rays(), {}, {}, {}, {}};
         for (int run = 0; run < runs; ++run) {
             // By turns, so that neither is always the one that finds the caches warm.

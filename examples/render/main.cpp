@@ -20,6 +20,7 @@
 #include "picture.hpp"
 #include "prepare_scene.hpp"
 #include "ray_scene.hpp"
+#include "ray_tracer.hpp"
 #include "render_loop.hpp"
 #include "shader.hpp"
 #include "statistics.hpp"
@@ -143,10 +144,11 @@ ExitStatus render_scene(Options options) {
     watch_interrupt();
 
     Stopwatch watch;
+    const RayTracer tracer(options.isa);
     Scene scene = prepare_scene(options);
     const Camera camera = choose_camera(scene, options);
-    const RayScene rays(scene);
-    RunReport report(options, scene, threads);
+    const RayScene rays(scene, tracer);
+    RunReport report(options, scene, tracer, threads);
     report.seconds.load = watch.lap();
 
     Rendering rendering;

@@ -11,6 +11,8 @@
 #include <CLI/CLI.hpp>
 #include <glm/geometric.hpp>
 
+#include "ray_tracer.hpp"
+
 namespace render {
 
 namespace {
@@ -310,6 +312,11 @@ Options parse_options(int argc, const char* const* argv) {
     });
     text("--aov", "LIST", "further layers, comma-separated: " + listed(aov_names()),
          [&](const std::string& s) { set_aovs(options, s); });
+    text("--isa", "NAME", "instruction set of the ray tracer: " + listed(isa_names()) + " (the best)",
+         [&](const std::string& s) {
+             if (!contains(isa_names(), s)) refuse("--isa", s, "one of " + listed(isa_names()));
+             options.isa = s;
+         });
     text("--threads", "N", "threads (all)", [&](const std::string& s) {
         options.threads = number_in<int>("--threads", s, 1, 4096, "a whole number from 1 to 4096");
     });

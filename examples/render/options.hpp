@@ -67,6 +67,7 @@ struct Options {
     lightcuts::ClampOptions clamp = lightcuts::automatic_clamping;
     bool diffuse_materials = false;   ///< everything is Lambert with its base colour
     std::filesystem::path reference;  ///< picture to compare with; empty: none
+    std::string isa;                  ///< of the ray tracer, one of isa_names(); empty: what Embree chooses
     std::vector<std::string> aovs;    ///< further layers, each of `aov_names()`
     int threads = 0;                  ///< 0: all
     std::uint64_t seed = 1;

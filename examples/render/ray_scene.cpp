@@ -81,16 +81,15 @@ void require(RTCDevice device) {
 
 }  // namespace
 
-RayScene::RayScene(const Scene& scene, const RayOptions& options) : source_(scene) {
+RayScene::RayScene(const Scene& scene, const RayTracer& tracer, const RayOptions& options)
+    : source_(scene), tracer_(tracer) {
     const std::vector<bool> passes = transmissive_materials(scene);
     for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
         (passes[scene.triangle_material[t]] ? translucent_ : opaque_).push_back(t);
     }
     transmissive_ = !translucent_.empty();
 
-    device_ = rtcNewDevice(nullptr);
-    if (!device_) throw std::runtime_error("Embree cannot be started on this machine");
-    scene_ = rtcNewScene(device_);
+    scene_ = rtcNewScene(tracer_.device());
     try {
         // A high-quality hierarchy would split triangles and report one surface twice to the filters.
         rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_MEDIUM);
@@ -98,28 +97,24 @@ RayScene::RayScene(const Scene& scene, const RayOptions& options) : source_(scen
         if (!opaque_.empty()) add_geometry(opaque_, false);
         if (!translucent_.empty()) add_geometry(translucent_, true);
         rtcCommitScene(scene_);
-        require(device_);
+        require(tracer_.device());
     } catch (...) {
         rtcReleaseScene(scene_);
-        rtcReleaseDevice(device_);
         throw;
     }
 }
 
-RayScene::~RayScene() {
-    rtcReleaseScene(scene_);
-    rtcReleaseDevice(device_);
-}
+RayScene::~RayScene() { rtcReleaseScene(scene_); }
 
 void RayScene::add_geometry(const std::vector<std::uint32_t>& triangles, bool with_filters) {
-    RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+    RTCGeometry geometry = rtcNewGeometry(tracer_.device(), RTC_GEOMETRY_TYPE_TRIANGLE);
     auto* positions = static_cast<glm::vec3*>(rtcSetNewGeometryBuffer(
         geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), source_.positions.size()));
     auto* corners = static_cast<glm::uvec3*>(rtcSetNewGeometryBuffer(
         geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(glm::uvec3), triangles.size()));
     if (!positions || !corners) {
         rtcReleaseGeometry(geometry);
-        require(device_);
+        require(tracer_.device());
     }
     std::copy(source_.positions.begin(), source_.positions.end(), positions);
     for (std::size_t i = 0; i < triangles.size(); ++i) corners[i] = source_.triangles[triangles[i]];
@@ -131,7 +126,7 @@ void RayScene::add_geometry(const std::vector<std::uint32_t>& triangles, bool wi
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(scene_, geometry, with_filters ? translucent_geometry : opaque_geometry);
     rtcReleaseGeometry(geometry);
-    require(device_);
+    require(tracer_.device());
 }
 
 std::optional<Hit> RayScene::nearest(const glm::vec3& origin, const glm::vec3& direction) const {

@@ -7,6 +7,7 @@
 #include <glm/vec3.hpp>
 
 #include "embree.hpp"
+#include "ray_tracer.hpp"
 #include "scene.hpp"
 
 namespace render {
@@ -33,7 +34,7 @@ struct RayOptions {
 class RayScene {
 public:
     /// `scene` must outlive this object. throws std::runtime_error if Embree fails.
-    explicit RayScene(const Scene& scene, const RayOptions& options = {});
+    explicit RayScene(const Scene& scene, const RayTracer& tracer = RayTracer(), const RayOptions& options = {});
     ~RayScene();
     RayScene(const RayScene&) = delete;
     RayScene& operator=(const RayScene&) = delete;
@@ -67,7 +68,7 @@ private:
     glm::vec3 pass(const glm::vec3& from, const glm::vec3& direction, float end) const;
 
     const Scene& source_;
-    RTCDevice device_ = nullptr;
+    RayTracer tracer_;
     RTCScene scene_ = nullptr;
     bool transmissive_ = false;
     std::vector<std::uint32_t> opaque_;       ///< triangle of each primitive of geometry 0

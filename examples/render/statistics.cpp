@@ -63,6 +63,7 @@ Json options_json(const RunReport& report) {
                                             : Json("off");
     json["clamp_ratio"] = clamp.is_automatic() ? Json(as_written(clamp.ratio)) : Json(nullptr);
     json["materials"] = o.diffuse_materials ? "diffuse" : "full";
+    json["isa"] = o.isa.empty() ? Json(nullptr) : Json(o.isa);
     json["reference"] = path_or_null(o.reference);
     json["aov"] = o.aovs;
     return json;
@@ -120,6 +121,7 @@ Json to_json(const RunReport& report) {
     json["spp"] = o.spp;
     json["seed"] = o.seed;
     json["threads"] = report.threads;
+    json["ray_tracer"] = {{"version", report.ray_tracer.version()}, {"isa", report.ray_tracer.isa()}};
     json["interrupted"] = report.interrupted;
     json["triangles"] = scene.triangles.size();
     const std::size_t of_file = scene.directional.size() - scene.environment_lights - scene.sun_lights -
