@@ -8,7 +8,7 @@ renderer_packages=(
 )
 test_packages=(
     ccache clang clang-format clang-tidy doxygen libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev
-    libcgal-dev
+    libcgal-dev pkgconf
 )
 
 # Installs those of the named packages that are not there. Returns 1, having said which failed, if that cannot be done.
