@@ -291,6 +291,8 @@ Options parse_options(int argc, const char* const* argv) {
     });
     count("--sky-lights", "distant lights that stand for the sky (5000); 0: it is only seen", 0, many,
           options.sky_lights);
+    text("--ground", "ALBEDO", "of the ground below the horizon, which sun and sky light (0.2); 0: black",
+         [&](const std::string& s) { options.ground = number_in("--ground", s, 0.0f, 1.0f, "a number from 0 to 1"); });
     count("--indirect", "about so many virtual lights for indirect light (0, or the scene's own)", 0, many,
           options.indirect);
     std::string clamp = "auto";

@@ -56,6 +56,7 @@ Json options_json(const RunReport& report) {
                                 : Json(nullptr);
     json["turbidity"] = as_written(o.turbidity);
     json["sky_lights"] = o.sky_lights;
+    json["ground"] = as_written(o.ground);
     json["indirect"] = o.indirect;
     const lightcuts::ClampOptions clamp = o.clamping();
     json["clamp"] = clamp.is_automatic()    ? Json("auto")
@@ -125,7 +126,7 @@ Json to_json(const RunReport& report) {
     json["interrupted"] = report.interrupted;
     json["triangles"] = scene.triangles.size();
     const std::size_t of_file = scene.directional.size() - scene.environment_lights - scene.sun_lights -
-                                scene.sky_lights;
+                                scene.sky_lights - scene.ground_lights;
     json["lights"] = {{"omni", scene.omni.size()},
                       {"oriented", scene.oriented.size()},
                       {"spot", scene.spots.size()},
@@ -134,6 +135,7 @@ Json to_json(const RunReport& report) {
                       {"environment", scene.environment_lights},
                       {"sun", scene.sun_lights},
                       {"sky", scene.sky_lights},
+                      {"ground", scene.ground_lights},
                       {"virtual", scene.virtual_lights.size()}};
     json["seconds"] = {{"load", report.seconds.load},
                        {"particles", report.seconds.particles},
