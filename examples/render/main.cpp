@@ -11,6 +11,7 @@
 #include <lightcuts/core/invalid_input.hpp>
 #include <nlohmann/json.hpp>
 
+#include "adaptation.hpp"
 #include "error.hpp"
 #include "indirect.hpp"
 #include "interrupt.hpp"

@@ -40,7 +40,4 @@ struct Rendering {
 /// infinite if none does), `normal.X` `.Y` `.Z` (mean of the first hits' shading normals).
 Rendering render_picture(const View& view, const SurfaceFinder& surfaces, const Shader& shader, const Options& options);
 
-/// Mean of the channels and over a coarse grid of pixels of the light that surfaces reflect: what an eye adapts to.
-float measure_adaptation(const View& view, const SurfaceFinder& surfaces, const Shader& shader);
-
 }  // namespace render
