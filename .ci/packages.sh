@@ -3,13 +3,15 @@
 
 library_packages=(g++ cmake ninja-build libglm-dev)
 renderer_packages=(
-    libembree-dev libtbb-dev libopenexr-dev libtinygltf-dev libtinyobjloader-dev libstb-dev libcli11-dev
+    libembree-dev libtbb-dev libopenexr-dev libstb-dev libcli11-dev
     nlohmann-json3-dev
 )
 test_packages=(
     ccache clang clang-format clang-tidy doxygen libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev
     libcgal-dev pkgconf
 )
+
+fuzz_packages=(clang libclang-rt-14-dev)
 
 # Installs those of the named packages that are not there. Returns 1, having said which failed, if that cannot be done.
 install_packages() {

@@ -39,7 +39,8 @@ struct Row {
 class Contest {
 public:
     Contest(const std::string& scene, int width, int height)
-        : work_(scene, 96, 72), options_(work_.options()), view_(work_.scene().cameras.front(), width, height) {
+        : work_(scene, 96, 72), options_(work_.options()),
+          view_(work_.scene().cameras.front(), work_.scene().origin, width, height) {
         options_.quiet = true;
         for (int y = 0; y < height; ++y) {
             for (int x = 0; x < width; ++x) {

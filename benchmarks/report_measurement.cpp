@@ -63,7 +63,8 @@ double process_seconds() {
 class SceneRenderer {
 public:
     SceneRenderer(const ReportScene& scene, const MeasurementOptions& options)
-        : scene_(*scene.scene), runs_(options.runs), rays_(scene_), view_(scene.camera, scene.width, scene.height),
+        : scene_(*scene.scene), runs_(options.runs), rays_(scene_),
+          view_(scene.camera, scene_.origin, scene.width, scene.height),
           surfaces_(scene_, rays_, render::shade_of(scene.options)), usual_(scene.options) {
         emitted_ = render::render_picture(view_, surfaces_, BlackShader(), usual_).picture;
         for (render::Material& material : scene_.materials) material.emission = glm::vec3(0.0f);

@@ -16,7 +16,7 @@ std::vector<render::SurfacePoint> points_seen(const render::Scene& scene, const 
                                               int height, render::Shade shade) {
     constexpr int tile_side = 16;  // the renderer's
     if (scene.cameras.empty()) throw lightcuts::invalid_input(scene.name + ": has no camera; choose another scene");
-    const render::View view(scene.cameras.front(), width, height);
+    const render::View view(scene.cameras.front(), scene.origin, width, height);
     const render::SurfaceFinder finder(scene, rays, shade);
     std::vector<render::SurfacePoint> points;
     for (const render::Tile& tile : render::tiles_of(width, height, tile_side)) {

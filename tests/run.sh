@@ -4,6 +4,7 @@
 #   tests/run.sh              all sections
 #   tests/run.sh --quick      format and gcc only
 #   tests/run.sh gcc tidy     these sections: format gcc tidy clang asan tsan docs
+#   tests/run.sh fuzz         a section that is not among the usual ones; LIGHTCUTS_FUZZ_SECONDS (60) for each target
 #   tests/run.sh --list       says what each section does
 #
 # LIGHTCUTS_BUILD is where the builds go (build/ in the repository). The last line is `N passed, N failed`: tests of
@@ -15,6 +16,7 @@ source .ci/packages.sh
 build=${LIGHTCUTS_BUILD:-$root/build}
 jobs=$(nproc)
 sections=(format gcc tidy clang asan tsan docs)
+more_sections=(fuzz)
 
 usage() { sed -n '2,/^set/p' "$root/tests/run.sh" | sed -n 's/^# \{0,1\}//p'; }
 
@@ -27,6 +29,7 @@ clang   clang++, Release: the library's tests
 asan    AddressSanitizer and UndefinedBehaviorSanitizer: the library's tests
 tsan    ThreadSanitizer: the library's tests that use threads
 docs    Doxygen
+fuzz    libFuzzer: what reads files, with bytes that it makes up (not among the usual sections)
 END
 }
 
@@ -37,7 +40,7 @@ for argument in "$@"; do
         --list) describe; exit 0 ;;
         -h | --help) usage; exit 0 ;;
         *)
-            case " ${sections[*]} " in
+            case " ${sections[*]} ${more_sections[*]} " in
                 *" $argument "*) chosen+=("$argument") ;;
                 *) echo "tests/run.sh: no section or option \`$argument\`; see --help" >&2; exit 2 ;;
             esac
@@ -73,11 +76,13 @@ check() {
     fi
 }
 
-# compile PRESET COMPILER: configures and builds build/PRESET.
+# compile PRESET COMPILER [build options]: configures and builds build/PRESET.
 compile() {
-    cmake --preset "$1" -B "$build/$1" -D CMAKE_CXX_COMPILER="$2" >"$build/$1.configure.log" 2>&1 ||
-        { cat "$build/$1.configure.log"; return 1; }
-    cmake --build "$build/$1" -- -k 0
+    local preset=$1 compiler=$2
+    shift 2
+    cmake --preset "$preset" -B "$build/$preset" -D CMAKE_CXX_COMPILER="$compiler" \
+        >"$build/$preset.configure.log" 2>&1 || { cat "$build/$preset.configure.log"; return 1; }
+    cmake --build "$build/$preset" "$@" -- -k 0
 }
 
 # run_tests PRESET [ctest options]: adds ctest's own totals to ours.
@@ -149,6 +154,28 @@ section_docs() {
         cmake --build "$build/docs" --target docs
     }
     check docs docs
+}
+
+# Inputs that lead on, and any that break a target, are kept in build/fuzz-corpus/TARGET.
+section_fuzz() {
+    local seconds=${LIGHTCUTS_FUZZ_SECONDS:-60} source target corpus
+    if ! install_packages "${fuzz_packages[@]}" || ! compile fuzz clang++ --target fuzz-targets; then
+        check "fuzz: build" false
+        return
+    fi
+    for source in tests/fuzz/fuzz_*.cpp; do
+        target=$(basename "$source" .cpp)
+        corpus=$build/fuzz-corpus/${target#fuzz_}
+        mkdir -p "$corpus"
+        fuzz() {
+            local log=$corpus.log
+            "$build/fuzz/fuzz/$target" "$corpus" "tests/fuzz/corpus/${target#fuzz_}" -max_total_time="$seconds" \
+                -max_len=8192 -timeout=20 -rss_limit_mb=4096 -print_final_stats=1 -artifact_prefix="$corpus-" \
+                >"$log" 2>&1 || { tail -n 40 "$log"; return 1; }
+            sed -n "s/^stat::number_of_executed_units: */$target: executions /p" "$log"
+        }
+        check "$target" fuzz
+    done
 }
 
 mkdir -p "$build"

@@ -9,6 +9,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
+#include <lightcuts/core/random.hpp>
 #include <lightcuts/core/spectrum.hpp>
 
 #include "flat_samples.hpp"
@@ -128,30 +129,41 @@ std::vector<Piece> cut_and_sort(const Scene& scene, std::span<const std::uint32_
     return pieces;
 }
 
-glm::vec3 emitted_radiance(const Scene& scene, std::uint32_t t, const glm::vec2& at) {
-    return emission_at(scene, t, at.x, at.y);
-}
-
-/// Mean over a piece by a rule of sixteen points: the centres of its sixteenths.
-glm::vec3 mean_radiance(const Scene& scene, const Piece& piece) {
+/// Mean of what a piece emits on its front, from a point in each of its sixteenths, drawn by a hash: points of a grid
+/// would all fall on bars of a grating, or between them.
+glm::vec3 mean_radiance(const Scene& scene, const Piece& piece, std::size_t index) {
     const auto& [a, b, c] = piece.corners;
-    const glm::vec2 third = ((b - a) + (c - a)) / 12.0f;
+    const glm::vec2 along = 0.25f * (b - a);
+    const glm::vec2 across = 0.25f * (c - a);
     glm::vec3 sum(0.0f);
+    std::uint64_t drawn = 0;
+    const auto add = [&](const glm::vec2& corner, float side) {
+        const std::uint64_t bits = lightcuts::hash_keys(piece.triangle, index, drawn++);
+        auto s = static_cast<float>(lightcuts::to_unit(bits));
+        auto t = static_cast<float>(lightcuts::to_unit(lightcuts::mix_bits(bits)));
+        if (s + t > 1.0f) {
+            s = 1.0f - s;
+            t = 1.0f - t;
+        }
+        const glm::vec2 at = corner + side * (s * along + t * across);
+        sum += emitted_radiance(scene, piece.triangle, at.x, at.y, true);
+    };
     for (int i = 0; i < 4; ++i) {
         for (int j = 0; j < 4 - i; ++j) {
-            const glm::vec2 corner = a + (b - a) * (0.25f * static_cast<float>(i)) +
-                                     (c - a) * (0.25f * static_cast<float>(j));
-            sum += emitted_radiance(scene, piece.triangle, corner + third);
-            if (i + j < 3) sum += emitted_radiance(scene, piece.triangle, corner + 2.0f * third);
+            const glm::vec2 corner = a + static_cast<float>(i) * along + static_cast<float>(j) * across;
+            add(corner, 1.0f);
+            if (i + j < 3) add(corner + along + across, -1.0f);  // the one that stands on its head
         }
     }
     return sum / 16.0f;
 }
 
-/// One point in each of `count` equal parts of the pieces' total weight; `visit(point, index of its piece)`.
-template <class Visit>
+/// One point in each of `count` equal parts of the pieces' total weight; `visit(point, index of its piece)`. Where
+/// `accepts(triangle, barycentric point)` refuses the point, another of the same piece is tried.
+template <class Accepts, class Visit>
 void visit_strata(const Scene& scene, const std::vector<Piece>& pieces, const std::vector<double>& weights,
-                  std::size_t count, Visit&& visit) {
+                  std::size_t count, Accepts&& accepts, Visit&& visit) {
+    constexpr int most_tries = 16;
     constexpr double golden = 0.6180339887498949;
     const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
     std::size_t at = 0;
@@ -161,13 +173,21 @@ void visit_strata(const Scene& scene, const std::vector<Piece>& pieces, const st
         while (at + 1 < pieces.size() && before + weights[at] <= wanted) before += weights[at++];
         const double rest = weights[at] > 0.0 ? std::clamp((wanted - before) / weights[at], 0.0, 1.0) : 0.5;
         const double turn = golden * static_cast<double>(i);
-        const double s = std::sqrt(rest);
-        const double t = s * (turn - std::floor(turn));
         const Piece& piece = pieces[at];
-        const auto& [a, b, c] = piece.corners;
+        const auto point = [&](double along, double across) {
+            const double s = std::sqrt(along);
+            const double t = s * across;
+            return (1.0 - s) * dvec2(piece.corners[0]) + (s - t) * dvec2(piece.corners[1]) +
+                   t * dvec2(piece.corners[2]);
+        };
+        dvec2 place = point(rest, turn - std::floor(turn));
+        for (int tries = 1; tries < most_tries && !accepts(piece.triangle, place); ++tries) {
+            const std::uint64_t bits = lightcuts::hash_keys(piece.triangle, i, static_cast<std::uint64_t>(tries));
+            place = point(lightcuts::to_unit(bits), lightcuts::to_unit(lightcuts::mix_bits(bits)));
+        }
         const Face f = face(scene, piece.triangle);
         AreaSample sample;
-        sample.position = glm::vec3(f.at((1.0 - s) * dvec2(a) + (s - t) * dvec2(b) + t * dvec2(c)));
+        sample.position = glm::vec3(f.at(place));
         sample.normal = glm::vec3(glm::normalize(glm::cross(f.b - f.a, f.c - f.a)));
         sample.triangle = piece.triangle;
         visit(sample, at);
@@ -176,12 +196,14 @@ void visit_strata(const Scene& scene, const std::vector<Piece>& pieces, const st
 
 /// Pieces are this much smaller than a point's share, so that a share is a compact patch.
 constexpr double pieces_per_point = 4.0;
-/// Least number of pieces of a textured emitter: the radiance is taken as constant over each.
-constexpr double least_textured_pieces = 4096.0;
+/// Least number of pieces of an emitter whose radiance varies, which is taken as constant over each; fewer where so
+/// few lights are wanted that there must be very many emitters.
+constexpr double least_varying_pieces = 4096.0;
+constexpr double varying_pieces_per_point = 256.0;
 
-bool is_textured(const Scene& scene, std::span<const std::uint32_t> triangles) {
-    return !scene.uvs.empty() && std::any_of(triangles.begin(), triangles.end(), [&](std::uint32_t t) {
-        return scene.materials[scene.triangle_material[t]].emission_texture != no_texture;
+bool is_varying(const Scene& scene, std::span<const std::uint32_t> triangles) {
+    return std::any_of(triangles.begin(), triangles.end(), [&](std::uint32_t t) {
+        return has_varying_emission(scene, scene.materials[scene.triangle_material[t]]);
     });
 }
 
@@ -199,37 +221,66 @@ std::vector<AreaSample> spread_by_area(const Scene& scene, std::span<const std::
     if (pieces.empty()) return {};
     std::vector<double> areas;
     for (const Piece& piece : pieces) areas.push_back(piece.area);
-    visit_strata(scene, pieces, areas, count, [&](const AreaSample& s, std::size_t) { samples.push_back(s); });
+    const auto anywhere = [](std::uint32_t, const dvec2&) { return true; };
+    visit_strata(scene, pieces, areas, count, anywhere,
+                 [&](const AreaSample& s, std::size_t) { samples.push_back(s); });
     return samples;
 }
 
 std::vector<EmissionSample> spread_by_emission(const Scene& scene, std::span<const std::uint32_t> triangles,
                                                std::size_t count) {
     std::vector<EmissionSample> samples;
-    if (!is_textured(scene, triangles)) {
+    if (!is_varying(scene, triangles)) {
         double area = 0;
         for (const std::uint32_t t : triangles) area += triangle_area(scene, t);
         for (const AreaSample& place : spread_by_area(scene, triangles, count)) {
-            const glm::dvec3 radiance(scene.materials[scene.triangle_material[place.triangle]].emission);
+            const glm::dvec3 radiance(emitted_radiance(scene, place.triangle, 1.0f / 3.0f, 1.0f / 3.0f, true));
+            if (radiance == glm::dvec3(0.0)) continue;
             samples.push_back({place, glm::vec3(radiance * (area / static_cast<double>(count)))});
         }
         return samples;
     }
-    const double pieces_wanted = std::max(pieces_per_point * static_cast<double>(count), least_textured_pieces);
+    const double points = static_cast<double>(count);
+    const double pieces_wanted = std::max(pieces_per_point * points,
+                                          std::min(varying_pieces_per_point * points, least_varying_pieces));
     const std::vector<Piece> pieces = cut_and_sort(scene, triangles, 1.0 / pieces_wanted);
     std::vector<glm::vec3> radiances;
     std::vector<double> powers;
     for (const Piece& piece : pieces) {
-        radiances.push_back(mean_radiance(scene, piece));
+        radiances.push_back(mean_radiance(scene, piece, radiances.size()));
         powers.push_back(piece.area * lightcuts::channel_sum(radiances.back()));
     }
     const double share = std::accumulate(powers.begin(), powers.end(), 0.0) / static_cast<double>(count);
     if (!(share > 0.0)) return {};
-    visit_strata(scene, pieces, powers, count, [&](const AreaSample& place, std::size_t piece) {
+    // Not in the holes of a mask.
+    const auto shines = [&](std::uint32_t t, const dvec2& at) {
+        return emitted_radiance(scene, t, static_cast<float>(at.x), static_cast<float>(at.y), true) != glm::vec3(0.0f);
+    };
+    visit_strata(scene, pieces, powers, count, shines, [&](const AreaSample& place, std::size_t piece) {
         const double scale = share / lightcuts::channel_sum(radiances[piece]);
         samples.push_back({place, glm::vec3(glm::dvec3(radiances[piece]) * scale)});
     });
     return samples;
+}
+
+double emitted_power(const Scene& scene, std::span<const std::uint32_t> triangles) {
+    double power = 0;
+    const std::size_t draws = is_varying(scene, triangles) ? 1 + 63 / triangles.size() : 1;
+    for (const std::uint32_t t : triangles) {
+        double sum = 0;
+        for (std::size_t i = 0; i < draws; ++i) {
+            glm::vec2 at(1.0f / 3.0f);
+            if (draws > 1) {
+                const std::uint64_t bits = lightcuts::hash_keys(t, i);
+                const auto s = static_cast<float>(std::sqrt(lightcuts::to_unit(bits)));
+                const auto u = static_cast<float>(lightcuts::to_unit(lightcuts::mix_bits(bits)));
+                at = {s * (1.0f - u), s * u};
+            }
+            sum += lightcuts::channel_sum(emitted_radiance(scene, t, at.x, at.y, true));
+        }
+        power += triangle_area(scene, t) * sum / static_cast<double>(draws);
+    }
+    return power;
 }
 
 }  // namespace render

@@ -37,4 +37,8 @@ std::vector<AreaSample> spread_by_area(const Scene& scene, std::span<const std::
 std::vector<EmissionSample> spread_by_emission(const Scene& scene, std::span<const std::uint32_t> triangles,
                                                std::size_t count);
 
+/// Area of `triangles` times the sum of channels of the radiance that their fronts emit, taken at 64 points where it
+/// varies.
+double emitted_power(const Scene& scene, std::span<const std::uint32_t> triangles);
+
 }  // namespace render

@@ -32,4 +32,17 @@ Scene builtin_colonnade();
 /// an oriented light; two dim panels at the ceiling are emissive surfaces.
 Scene builtin_screens();
 
+/// A glTF file, written and read in memory, with 5 rows of 6 tiles, one for each thing that such a file may say: see
+/// docs/renderer.md. The left half of a tile says it, the right half has by plain means the colour that should come of
+/// it. Below, pools of light of a point, a spot and a sphere.
+Scene builtin_test_card();
+
+/// Tiles are 1 x 1, their lower left corners `pitch` apart; the first one's is the origin, rows go downwards. The
+/// camera `card` is orthographic, as high as `height` about `middle`.
+inline constexpr int test_card_columns = 6;
+inline constexpr int test_card_rows = 5;
+inline constexpr float test_card_pitch = 1.1f;
+inline constexpr float test_card_middle = -2.4f;
+inline constexpr float test_card_height = 7.2f;
+
 }  // namespace render

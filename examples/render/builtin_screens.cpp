@@ -40,7 +40,7 @@ public:
         add_monitor({0.70f, 0.0f, -1.42f}, -13.0f, test_card(columns, rows));
         add_desk_things();
         add_room_things();
-        scene_.uvs.resize(scene_.positions.size());
+        scene_.uv_sets[0].resize(scene_.positions.size());
         scene_.cameras.push_back({"desk", {0.55f, 1.50f, 1.25f}, {0.02f, 1.06f, -1.2f}, {0, 1, 0}, 50.0f});
         scene_.cameras.push_back({"room", {2.7f, 1.9f, 2.8f}, {-0.6f, 0.8f, -1.0f}, {0, 1, 0}, 52.0f});
         scene_.cameras.push_back({"still life", {0.5f, 1.15f, 0.1f}, {-0.2f, 0.85f, -1.0f}, {0, 1, 0}, 46.0f});
@@ -141,15 +141,17 @@ private:
         screen.model = Material::Model::phong;
         screen.base_color = glm::vec3(0.01f);
         screen.emission = glm::vec3(1.0f);
-        screen.emission_texture = static_cast<int>(scene_.textures.size());
+        screen.emission_texture.texture = static_cast<int>(scene_.textures.size());
         screen.only_seen = true;  // its pixels are lights already
         m_.material = static_cast<std::uint32_t>(scene_.materials.size());
         scene_.materials.push_back(screen);
         const glm::vec3 corner(-x, low, -0.02f);
-        scene_.uvs.resize(scene_.positions.size());
+        scene_.uv_sets.resize(1);
+        std::vector<glm::vec2>& uvs = scene_.uv_sets[0];
+        uvs.resize(scene_.positions.size());
         m_.quad(corner, {picture_width, 0, 0}, {0, picture_height, 0});
         for (const glm::vec2 uv : {glm::vec2(0, 1), glm::vec2(1, 1), glm::vec2(0, 0), glm::vec2(1, 0)}) {
-            scene_.uvs.push_back(uv);
+            uvs.push_back(uv);
         }
         add_pixel_lights(corner, picture);
         scene_.textures.push_back(std::move(picture));

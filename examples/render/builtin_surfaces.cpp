@@ -186,8 +186,8 @@ void rotate(Scene& scene) {
         light.axis = glm::normalize(turn * light.axis);
     }
     for (Camera& camera : scene.cameras) {
-        camera.eye = turn * camera.eye;
-        camera.target = turn * camera.target;
+        camera.eye = glm::dmat3(turn) * camera.eye;
+        camera.target = glm::dmat3(turn) * camera.target;
         camera.up = turn * camera.up;
     }
 }

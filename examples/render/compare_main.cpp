@@ -1,6 +1,7 @@
 #include <cmath>
 #include <cstdio>
 #include <exception>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -9,10 +10,14 @@
 #include <nlohmann/json.hpp>
 
 #include "error.hpp"
+#include "escape.hpp"
 #include "false_color.hpp"
+#include "interrupt.hpp"
+#include "memory.hpp"
 #include "options.hpp"
 #include "output_file.hpp"
 #include "picture.hpp"
+#include "standard_streams.hpp"
 #include "statistics.hpp"
 
 namespace {
@@ -28,9 +33,8 @@ struct CompareOptions {
 };
 
 void write_colors(const std::string& path, const Picture& picture, const std::vector<glm::vec3>& colors) {
-    OutputFile file(path);
-    write_png(file.path(), picture.width, picture.height, colors);
-    file.commit();
+    require_writable(path);
+    write_png(path, picture.width, picture.height, colors);
 }
 
 void compare_pictures(const CompareOptions& options) {
@@ -43,7 +47,7 @@ void compare_pictures(const CompareOptions& options) {
         const double white = options.white > 0 ? options.white : usual_white;
         write_colors(options.out, picture, heat_map(picture, reference, white));
     }
-    std::printf("%s\n", to_json(figures).dump(2).c_str());
+    print(to_json(figures).dump(2) + "\n");
 }
 
 const std::vector<float>& layer_of(const Picture& picture, const CompareOptions& options) {
@@ -67,17 +71,15 @@ void show_layer(const CompareOptions& options) {
         write_colors(options.out, picture, colors);
     }
     nlohmann::ordered_json json;
-    json["layer"] = options.layer;
+    json["layer"] = as_utf8(options.layer);
     json["min"] = figures.min;
     json["mean"] = figures.mean;
     json["max"] = figures.max;
     json["white"] = white;
-    std::printf("%s\n", json.dump(2).c_str());
+    print(json.dump(2) + "\n");
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, const char* const* argv) {
     CompareOptions options;
     CLI::App app(
         "Prints how far picture A is from reference B, as JSON; or what a layer of A holds.\n"
@@ -92,26 +94,41 @@ int main(int argc, char** argv) {
     layer->excludes(reference);
     try {
         app.parse(argc, argv);
-        if (white->count() > 0 && !(options.white > 0 && std::isfinite(options.white))) {
-            throw CLI::ValidationError("--white", "expected a finite number above 0");
-        }
-        if (options.layer.empty() && options.reference.empty()) {
-            throw CLI::RequiredError("a reference B, or --layer NAME,");
-        }
-        if (options.layer.empty()) {
-            compare_pictures(options);
-        } else {
-            show_layer(options);
-        }
-        return 0;
     } catch (const CLI::CallForHelp&) {
-        std::fputs(app.help().c_str(), stdout);
+        print(app.help());
         return 0;
-    } catch (const CLI::ParseError& e) {
-        std::fprintf(stderr, "lightcuts-compare: %s (--help lists the options)\n", one_line(e.what()).c_str());
-        return 2;
-    } catch (const std::exception& e) {
-        std::fprintf(stderr, "lightcuts-compare: %s\n", one_line(e.what()).c_str());
-        return 1;
     }
+    if (white->count() > 0 && !(options.white > 0 && std::isfinite(options.white))) {
+        throw CLI::ValidationError("--white", "expected a finite number above 0");
+    }
+    if (options.layer.empty() && options.reference.empty()) {
+        throw CLI::RequiredError("a reference B, or --layer NAME,");
+    }
+    if (options.layer.empty()) {
+        compare_pictures(options);
+    } else {
+        show_layer(options);
+    }
+    return 0;
+}
+
+int fail(int status, const std::string& message) {
+    std::fprintf(stderr, "lightcuts-compare: %s\n", escaped(message).c_str());
+    return status;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    guard_standard_streams();
+    watch_signals("lightcuts-compare");
+    watch_termination("lightcuts-compare");
+    try {
+        return run(argc, argv);
+    } catch (const CLI::ParseError& e) {
+        return fail(2, one_line(e.what()) + " (--help lists the options)");
+    } catch (const std::bad_alloc&) {
+        // What was asked for has been given back: there is room for a message.
+        return fail(1, memory_shortage());
+    } catch (const std::exception& e) { return fail(1, e.what()); }
 }

@@ -90,18 +90,80 @@ std::vector<EmissiveSurface> emissive_surfaces(const Scene& scene) {
     return surfaces;
 }
 
-void add_emitter_lights(Scene& scene, std::size_t points) {
-    if (points == 0) return;
-    const std::vector<EmissiveSurface> surfaces = emissive_surfaces(scene);
-    if (2 * surfaces.size() > most_lights / points) {
-        throw lightcuts::invalid_input(scene.name + ": " + std::to_string(points) + " points on each of " +
-                                       std::to_string(surfaces.size()) +
-                                       " emissive surfaces are too many lights; lower --area-points");
-    }
+namespace {
+
+std::size_t sides_of(const Scene& scene, const EmissiveSurface& surface) {
+    return scene.materials[surface.material].double_sided ? 2 : 1;
+}
+
+/// Sum of channels of the power that each surface emits, up to a factor common to all.
+std::vector<double> powers_of(const Scene& scene, const std::vector<EmissiveSurface>& surfaces) {
+    std::vector<double> powers;
+    powers.reserve(surfaces.size());
     for (const EmissiveSurface& surface : surfaces) {
-        const bool both_sides = scene.materials[surface.material].double_sided;
+        powers.push_back(emitted_power(scene, surface.triangles) * static_cast<double>(sides_of(scene, surface)));
+    }
+    return powers;
+}
+
+/// The most lights in all, of the sides of surfaces that emit; 0: any number.
+std::size_t total_of(const EmitterLightOptions& options, std::size_t sides) {
+    constexpr std::size_t usual_total = 200'000;
+    constexpr std::size_t usual_points = 64;
+    return options.total.value_or(sides > usual_total / usual_points ? usual_total : 0);
+}
+
+/// Lights on each side of each surface: `options.points`, or so many that they are about `options.total` in all.
+std::vector<std::size_t> points_of(const Scene& scene, const std::vector<EmissiveSurface>& surfaces,
+                                   const EmitterLightOptions& options) {
+    std::vector<std::size_t> points(surfaces.size(), options.points);
+    std::size_t sides = 0;
+    for (const EmissiveSurface& surface : surfaces) sides += sides_of(scene, surface);
+    const std::size_t total = total_of(options, sides);
+    if (total == 0 || sides <= total / options.points) return points;
+
+    // One factor of all powers, within the least and the most that a surface may have.
+    const std::vector<double> powers = powers_of(scene, surfaces);
+    const auto set_by = [&](double factor) {
+        std::size_t sum = 0;
+        for (std::size_t i = 0; i < surfaces.size(); ++i) {
+            const double most = static_cast<double>(options.points);
+            points[i] = static_cast<std::size_t>(std::clamp(factor * powers[i], 1.0, most));
+            sum += points[i] * sides_of(scene, surfaces[i]);
+        }
+        return sum;
+    };
+    const double largest = *std::max_element(powers.begin(), powers.end());
+    if (!(largest > 0.0)) return points;
+    double low = 0.0;
+    double high = static_cast<double>(options.points) * static_cast<double>(surfaces.size()) / largest;
+    while (set_by(high) <= total && high < 1e300) high *= 2.0;
+    for (int step = 0; step < 60; ++step) {
+        const double middle = 0.5 * (low + high);
+        (set_by(middle) <= total ? low : high) = middle;
+    }
+    set_by(low);
+    return points;
+}
+
+}  // namespace
+
+void add_emitter_lights(Scene& scene, const EmitterLightOptions& options) {
+    if (options.points == 0) return;
+    const std::vector<EmissiveSurface> surfaces = emissive_surfaces(scene);
+    const std::vector<std::size_t> points = points_of(scene, surfaces, options);
+    std::size_t all = 0;
+    for (std::size_t i = 0; i < surfaces.size(); ++i) all += points[i] * sides_of(scene, surfaces[i]);
+    if (all > most_lights) {
+        throw lightcuts::invalid_input(scene.name + ": " + std::to_string(all) + " lights on " +
+                                       std::to_string(surfaces.size()) +
+                                       " emissive surfaces are too many; lower --area-points or --area-lights");
+    }
+    for (std::size_t i = 0; i < surfaces.size(); ++i) {
+        const EmissiveSurface& surface = surfaces[i];
+        const bool both_sides = sides_of(scene, surface) == 2;
         const auto size = static_cast<float>(std::sqrt(surface.area));
-        for (const EmissionSample& sample : spread_by_emission(scene, surface.triangles, points)) {
+        for (const EmissionSample& sample : spread_by_emission(scene, surface.triangles, points[i])) {
             const glm::vec3 p = sample.place.position;
             const glm::vec3 n = sample.place.normal;
             const float offset = offset_share * std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z), size});

@@ -1,5 +1,6 @@
 #include "indirect.hpp"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,16 @@ void add_virtual_lights(Scene& scene, const RayScene& rays, std::size_t count, S
         for (const auto& light : indirect.lights) scene.virtual_lights.push_back({light});
     } catch (const lightcuts::invalid_input& problem) {
         throw lightcuts::invalid_input(scene.name + ": " + problem.what() + "; give --indirect 0 or add lights");
+    }
+}
+
+void name_amplifying_materials(Scene& scene) {
+    for (const Material& m : scene.materials) {
+        const glm::vec3 sum = m.base_color + m.specular;
+        const bool amplifies = m.model == Material::Model::phong && std::max({sum.r, sum.g, sum.b}) > 1.0f + 1e-6f;
+        if (!amplifies) continue;
+        leave_out(scene.left_out, "what is above 1 of Kd + Ks of material '" + m.name + "'",
+                  "in indirect light a surface reflects no more than it gets");
     }
 }
 

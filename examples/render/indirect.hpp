@@ -15,4 +15,8 @@ namespace render {
 /// threads: those of the calling task arena; the lights do not depend on them.
 void add_virtual_lights(Scene& scene, const RayScene& rays, std::size_t count, Shade shade, std::uint64_t seed);
 
+/// Names in `scene.left_out` the materials whose diffuse and glossy parts add up to more than 1, of which particles
+/// carry on at most 1.
+void name_amplifying_materials(Scene& scene);
+
 }  // namespace render

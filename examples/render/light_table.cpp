@@ -12,6 +12,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include "escape.hpp"
 #include "text_file.hpp"
 
 namespace render {
@@ -42,36 +43,39 @@ struct Row {
         }
     }
 
-    float number(std::size_t column) const {
+    double number(std::size_t column) const {
         const std::string name(columns[column]);
         if (fields[column].empty()) fail(name + " is missing; give it a number");
         const std::optional<double> value = parse_number(fields[column]);
         if (!value || !std::isfinite(static_cast<float>(*value))) {
-            fail(name + " '" + std::string(fields[column]) + "' is not a finite number; correct it");
+            fail(name + " '" + excerpt(fields[column]) + "' is not a finite number; correct it");
         }
-        return static_cast<float>(*value);
+        return *value;
     }
 
-    glm::vec3 triple(std::size_t column) const { return {number(column), number(column + 1), number(column + 2)}; }
+    glm::dvec3 triple(std::size_t column) const { return {number(column), number(column + 1), number(column + 2)}; }
+
+    /// In the coordinates of a scene with this origin.
+    glm::vec3 position(const glm::dvec3& origin) const { return glm::vec3(triple(1) - origin); }
 
     glm::vec3 direction() const {
-        const glm::dvec3 d(triple(4));
+        const glm::dvec3 d = triple(4);
         if (d == glm::dvec3(0.0)) fail("the direction dx, dy, dz has zero length; correct it");
-        return glm::normalize(d);
+        return glm::vec3(glm::normalize(d));
     }
 
     float radius() const {
-        const float r = number(4);
-        if (!(r > 0.0f)) fail("the radius dx '" + std::string(fields[4]) + "' is not positive; correct it");
+        const auto r = static_cast<float>(number(4));
+        if (!(r > 0.0f)) fail("the radius dx '" + excerpt(fields[4]) + "' is not positive; correct it");
         return r;
     }
 
     glm::vec3 intensity() const {
-        const glm::vec3 rgb = triple(7);
+        const glm::vec3 rgb(triple(7));
         for (int i = 0; i < 3; ++i) {
             const auto column = static_cast<std::size_t>(7 + i);
             if (rgb[i] < 0.0f) {
-                fail(std::string(columns[column]) + " '" + std::string(fields[column]) +
+                fail(std::string(columns[column]) + " '" + excerpt(fields[column]) +
                      "' is negative; light cannot be taken away");
             }
         }
@@ -81,27 +85,27 @@ struct Row {
     void require_empty(std::size_t first, std::size_t count = 3) const {
         for (std::size_t column = first; column < first + count; ++column) {
             if (!fields[column].empty()) {
-                fail(std::string(columns[column]) + " must be empty for the kind '" + std::string(fields[0]) + "'");
+                fail(std::string(columns[column]) + " must be empty for the kind '" + excerpt(fields[0]) + "'");
             }
         }
     }
 };
 
-void add_light(const Row& row, Scene& lights) {
+void add_light(const Row& row, const glm::dvec3& origin, Scene& lights) {
     const std::string_view kind = row.fields[0];
     if (kind == "omni") {
         row.require_empty(4);
-        lights.omni.push_back({row.triple(1), row.intensity()});
+        lights.omni.push_back({row.position(origin), row.intensity()});
     } else if (kind == "oriented") {
-        lights.oriented.push_back({row.triple(1), row.direction(), row.intensity()});
+        lights.oriented.push_back({row.position(origin), row.direction(), row.intensity()});
     } else if (kind == "sphere") {
         row.require_empty(5, 2);
-        lights.spheres.push_back({row.triple(1), row.radius(), row.intensity()});
+        lights.spheres.push_back({row.position(origin), row.radius(), row.intensity()});
     } else if (kind == "directional") {
         row.require_empty(1);
         lights.directional.push_back({row.direction(), row.intensity()});
     } else {
-        row.fail("the kind '" + std::string(kind) + "' is unknown; use omni, oriented, directional or sphere");
+        row.fail("the kind '" + excerpt(kind) + "' is unknown; use omni, oriented, directional or sphere");
     }
 }
 
@@ -116,10 +120,10 @@ std::size_t append(std::vector<L>& to, const std::vector<L>& from) {
 
 }  // namespace
 
-void add_light_table(const std::filesystem::path& path, Scene& scene) {
-    const std::string text = read_file(path);
+void add_light_table(const std::filesystem::path& path, Scene& scene, const FileSource& files) {
+    const std::string text = files.read(path);
     std::string_view content = text;
-    if (content.starts_with("\xEF\xBB\xBF")) content.remove_prefix(3);  // a byte order mark
+    if (content.starts_with(byte_order_mark)) content.remove_prefix(byte_order_mark.size());
     Scene lights;
     bool has_header = false;
     for_each_line(content, [&](std::size_t line, std::string_view line_text) {
@@ -131,7 +135,7 @@ void add_light_table(const std::filesystem::path& path, Scene& scene) {
         }
         Row row{path, line};
         row.split(line_text);
-        add_light(row, lights);
+        add_light(row, scene.origin, lights);
     });
     if (!has_header) fail_at(path, 1, "the file is empty; begin with the header " + std::string(header));
 

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "io/file_source.hpp"
 #include "scene.hpp"
 
 namespace render {
@@ -12,6 +13,6 @@ namespace render {
 /// (directional: irradiance on a facing plane, W/m^2). Directions need not be of unit length. Lights of zero intensity
 /// are counted and left out; empty lines are skipped. throws: invalid_input with "file:line: problem"; the scene is
 /// then unchanged.
-void add_light_table(const std::filesystem::path& path, Scene& scene);
+void add_light_table(const std::filesystem::path& path, Scene& scene, const FileSource& files = DiskFiles());
 
 }  // namespace render

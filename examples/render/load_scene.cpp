@@ -10,8 +10,8 @@
 #include <lightcuts/core/invalid_input.hpp>
 
 #include "builtin.hpp"
-#include "load_gltf.hpp"
-#include "load_obj.hpp"
+#include "io/load_gltf.hpp"
+#include "io/load_obj.hpp"
 #include "validate.hpp"
 
 namespace render {
@@ -35,7 +35,8 @@ struct FixedScene {
 constexpr std::array fixed_scenes{FixedScene{"hall", builtin_hall, "--area-points"},
                                   FixedScene{"tableau", builtin_tableau, "--env-lights"},
                                   FixedScene{"colonnade", builtin_colonnade, "--sky-lights and --indirect"},
-                                  FixedScene{"screens", builtin_screens, "--area-points for its two ceiling panels"}};
+                                  FixedScene{"screens", builtin_screens, "--area-points for its two ceiling panels"},
+                                  FixedScene{"test-card", builtin_test_card, "--area-points for its glowing tiles"}};
 
 [[noreturn]] void fail(std::string_view scene, const std::string& problem) {
     throw lightcuts::invalid_input(std::string(scene) + ": " + problem);
@@ -110,7 +111,7 @@ Scene load_scene(std::string_view path_or_builtin) {
 }
 
 std::vector<std::string> builtin_names() {
-    return {"hall", "omni", "directional", "surfaces", "tableau", "colonnade", "screens"};
+    return {"hall", "omni", "directional", "surfaces", "tableau", "colonnade", "screens", "test-card"};
 }
 
 }  // namespace render

@@ -26,7 +26,7 @@ LobeSampler::LobeSampler(const SurfaceLobes& lobes, const glm::vec3& normal, con
     }
     if (model_ == SurfaceLobes::Model::microfacet) {
         const auto grazing = static_cast<double>(schlick(static_cast<float>(glm::dot(normal_, view_))));
-        gloss_share_ = mean(lobes.specular) * (1.0 - grazing) + grazing;
+        gloss_share_ = mean(lobes.specular) * (1.0 - grazing) + static_cast<double>(lobes.grazing) * grazing;
     }
 }
 

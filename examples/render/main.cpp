@@ -1,7 +1,6 @@
 #include <chrono>
 #include <cstdio>
 #include <exception>
-#include <fstream>
 #include <memory>
 #include <string>
 
@@ -9,21 +8,25 @@
 #include <oneapi/tbb/task_arena.h>
 #include <glm/geometric.hpp>
 #include <lightcuts/core/invalid_input.hpp>
-#include <nlohmann/json.hpp>
 
 #include "adaptation.hpp"
 #include "error.hpp"
+#include "escape.hpp"
+#include "fingerprint.hpp"
 #include "indirect.hpp"
 #include "interrupt.hpp"
 #include "load_scene.hpp"
+#include "memory.hpp"
 #include "options.hpp"
-#include "output_file.hpp"
+#include "outputs.hpp"
 #include "picture.hpp"
 #include "prepare_scene.hpp"
 #include "ray_scene.hpp"
 #include "ray_tracer.hpp"
 #include "render_loop.hpp"
+#include "resume_file.hpp"
 #include "shader.hpp"
+#include "standard_streams.hpp"
 #include "statistics.hpp"
 #include "surface.hpp"
 #include "validate.hpp"
@@ -37,7 +40,7 @@ namespace {
 
 using namespace render;
 
-enum ExitStatus { done = 0, bad_input = 1, bad_command_line = 2, stopped = 3 };
+enum ExitStatus { done = 0, bad_input = 1, bad_command_line = 2, stopped = interrupted_status };
 
 constexpr float default_fov = 45.0f;
 
@@ -53,21 +56,6 @@ public:
 
 private:
     std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
-
-/// The three files that a run leaves.
-struct Outputs {
-    std::filesystem::path exr;
-    std::filesystem::path png;
-    std::filesystem::path json;
-
-    explicit Outputs(const std::filesystem::path& exr_path) : exr(exr_path), png(exr_path), json(exr_path) {
-        png.replace_extension(".png");
-        json.replace_extension(".json");
-    }
-    void require_all_writable() const {
-        for (const auto& path : {exr, png, json}) require_writable(path);
-    }
 };
 
 std::optional<Picture> read_reference(const Options& options) {
@@ -92,6 +80,9 @@ Camera scene_camera(const Scene& scene, const std::string& name) {
         if (camera.name == name) return camera;
         names += (names.empty() ? "" : ", ") + camera.name;
     }
+    for (const Camera& camera : scene.cameras) {
+        if (camera.other_name == name) return camera;
+    }
     throw lightcuts::invalid_input(scene.name + ": no camera '" + name + "'; there is " + names);
 }
 
@@ -105,24 +96,37 @@ Camera choose_camera(const Scene& scene, const Options& options) {
     } else {
         camera = scene_camera(scene, options.camera);
     }
+    if (options.fov && camera.height > 0.0) {
+        throw usage_error("--fov: the camera '" + camera.name + "' is orthographic, it has no field of view");
+    }
     if (options.fov) camera.vertical_fov = *options.fov;
     require_usable(camera, options.eye ? "--eye, --target" : scene.name + ": camera '" + camera.name + "'");
     return camera;
 }
 
-void save(const Outputs& outputs, const Picture& picture, const RunReport& report) {
-    OutputFile exr(outputs.exr);
-    OutputFile png(outputs.png);
-    OutputFile json(outputs.json);
-    write_exr(exr.path(), picture);
-    write_png(png.path(), picture.width, picture.height, tone_mapped(picture));
-    std::ofstream text(json.path());
-    text << to_json(report).dump(2) << "\n";
-    text.close();
-    if (!text) throw lightcuts::invalid_input(outputs.json.string() + ": cannot be written; is the disk full?");
-    exr.commit();
-    png.commit();
-    json.commit();
+void warn(const std::string& message) {
+    std::fprintf(stderr, "lightcuts-render: warning: %s\n", escaped(message).c_str());
+}
+
+/// Says what becomes of finished tiles that an earlier run may have left.
+/// throws: invalid_input if the command line asks for them and they cannot be used.
+void announce(const ResumeFile& file, const Options& options) {
+    const std::string name = file.path().string();
+    if (!file.obstacle().empty()) {
+        if (options.resume) throw lightcuts::invalid_input(name + ": " + file.obstacle() + "; leave --resume out");
+        warn(name + ": " + file.obstacle() + "; rendering goes on, but could not be resumed");
+    } else if (options.resume != file.is_there() && !options.quiet) {
+        const char* state = options.resume ? "there are no finished tiles; starting from the beginning"
+                                           : "starting over; --resume would have gone on with these finished tiles";
+        std::fprintf(stderr, "lightcuts-render: %s: %s\n", escaped(name).c_str(), state);
+    }
+}
+
+void say_what_is_left_out(const Scene& scene, const Options& options) {
+    if (options.quiet) return;
+    for (const LeftOut& item : scene.left_out) {
+        std::fprintf(stderr, "lightcuts-render: left out: %s\n", escaped(item.what + ": " + item.why).c_str());
+    }
 }
 
 /// Of an error that is that of clamping rather than of the method.
@@ -134,20 +138,50 @@ void warn_of_clamped_reference(const Scene& scene, const Options& options) {
                  options.method.c_str());
 }
 
+/// Writes what there is of the picture. throws: invalid_input, and then nothing that was rendered is lost.
+ExitStatus save_rendering(const Outputs& outputs, ResumeFile& tiles, const Rendering& rendering, RunReport& report) {
+    const bool quiet = report.options.quiet;
+    tiles.flush();
+    if (rendering.interrupted && rendering.tiles == 0) {
+        std::fputs("lightcuts-render: interrupted before anything was finished; nothing was written\n", stderr);
+        return stopped;
+    }
+    const Outputs chosen = rendering.interrupted ? outputs.of_unfinished() : outputs;
+    report.picture = chosen.exr;
+    const auto save_all = [&] { save(chosen, rendering.picture, report); };
+    try {
+        save_all();
+    } catch (const lightcuts::invalid_input& e) {
+        if (!tiles.is_of_use()) throw;
+        const std::string hint = "; --resume will not render again what is in " + tiles.path().string();
+        if (rendering.interrupted) throw lightcuts::invalid_input(e.what() + hint);
+        // All that the tiles are for is here now, and they may take the room that it needs.
+        try {
+            tiles.lend_room(save_all);
+        } catch (const lightcuts::invalid_input& again) { throw lightcuts::invalid_input(again.what() + hint); }
+    }
+    if (!rendering.interrupted) tiles.remove();
+    if (!quiet) std::fputs(summary(report).c_str(), stderr);
+    if (quiet && rendering.interrupted) std::fprintf(stderr, "lightcuts-render: %s\n", interruption(report).c_str());
+    return rendering.interrupted ? stopped : done;
+}
+
 ExitStatus render_scene(Options options) {
     const Outputs outputs(options.output);
     outputs.require_all_writable();
+    ResumeFile tiles(outputs.resume, warn);
+    announce(tiles, options);
     const std::optional<Picture> reference = read_reference(options);
 
     const int threads = options.threads > 0 ? options.threads : tbb::this_task_arena::max_concurrency();
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
     tbb::task_arena arena(threads);
-    watch_interrupt();
 
     Stopwatch watch;
     const RayTracer tracer(options.isa);
     Scene scene = prepare_scene(options);
     const Camera camera = choose_camera(scene, options);
+    say_what_is_left_out(scene, options);
     const RayScene rays(scene, tracer);
     RunReport report(options, scene, tracer, threads);
     report.seconds.load = watch.lap();
@@ -160,47 +194,60 @@ ExitStatus render_scene(Options options) {
         report.seconds.particles = watch.lap();
         const auto shader = make_shader(scene, rays, options);
         report.seconds.tree = watch.lap();
-        const View view(camera, options.width, options.height);
+        const View view(camera, scene.origin, options.width, options.height);
         const SurfaceFinder surfaces(scene, rays, shade);
         report.adaptation = options.adaptation ? *options.adaptation : measure_adaptation(view, surfaces, *shader);
         shader->adapt(report.adaptation);
-        rendering = render_picture(view, surfaces, *shader, options);
+        const Fingerprint fingerprint = fingerprint_of(options, scene, camera, rays, LIGHTCUTS_VERSION);
+        defer_signals();
+        if (options.resume && tiles.is_there()) {
+            tiles.go_on(fingerprint);
+        } else {
+            tiles.begin(fingerprint);
+        }
+        rendering = render_picture(view, surfaces, *shader, options, &tiles);
         report.seconds.render = watch.lap();
     });
 
     report.statistics = rendering.statistics;
     report.interrupted = rendering.interrupted;
+    report.resumed_tiles = rendering.resumed_tiles;
     if (reference && !rendering.interrupted) report.error = compare(rendering.picture, *reference);
-    save(outputs, rendering.picture, report);
-    if (!options.quiet) std::fputs(summary(report).c_str(), stderr);
-    return rendering.interrupted ? stopped : done;
+    return save_rendering(outputs, tiles, rendering, report);
 }
 
 ExitStatus run(const Options& options) {
     switch (options.action) {
-        case Options::Action::help: std::fputs(options.help.c_str(), stdout); return done;
-        case Options::Action::version: std::puts("lightcuts-render " LIGHTCUTS_VERSION); return done;
-        case Options::Action::list_scenes:
-            for (const std::string& name : builtin_names()) std::printf("builtin:%s\n", name.c_str());
+        case Options::Action::help: print(options.help); return done;
+        case Options::Action::version: print("lightcuts-render " LIGHTCUTS_VERSION "\n"); return done;
+        case Options::Action::list_scenes: {
+            std::string names;
+            for (const std::string& name : builtin_names()) names += "builtin:" + name + "\n";
+            print(names);
             return done;
+        }
         case Options::Action::render: break;
     }
     return render_scene(options);
 }
 
 ExitStatus fail(ExitStatus status, const std::string& message) {
-    std::fprintf(stderr, "lightcuts-render: %s\n", one_line(message).c_str());
+    std::fprintf(stderr, "lightcuts-render: %s\n", escaped(message).c_str());
     return status;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+    guard_standard_streams();
+    watch_signals("lightcuts-render");
+    watch_termination("lightcuts-render");
     try {
         return run(parse_options(argc, argv));
     } catch (const usage_error& e) {
         return fail(bad_command_line, std::string(e.what()) + " (--help lists the options)");
     } catch (const std::bad_alloc&) {
-        return fail(bad_input, "not enough memory; give a smaller --size or scene");
-    } catch (const std::exception& e) { return fail(bad_input, e.what()); }
+        // What was asked for has been given back: there is room for a message.
+        return fail(bad_input, memory_shortage());
+    } catch (const std::exception& e) { return fail(bad_input, explanation(e)); }
 }

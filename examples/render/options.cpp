@@ -66,12 +66,13 @@ std::vector<std::string> split(const std::string& text, char separator) {
     return parts;
 }
 
-glm::vec3 vector_of(const std::string& option, const std::string& text) {
+glm::dvec3 vector_of(const std::string& option, const std::string& text) {
     const std::vector<std::string> parts = split(text, ',');
-    glm::vec3 v(0.0f);
+    glm::dvec3 v(0.0);
     for (int i = 0; i < 3; ++i) {
-        const auto value = parts.size() == 3 ? to_number<float>(parts[static_cast<std::size_t>(i)]) : std::nullopt;
-        if (!value) refuse(option, text, "three numbers X,Y,Z");
+        const auto value = parts.size() == 3 ? to_number<double>(parts[static_cast<std::size_t>(i)]) : std::nullopt;
+        // What a float cannot hold cannot be rendered.
+        if (!value || !std::isfinite(static_cast<float>(*value))) refuse(option, text, "three numbers X,Y,Z");
         v[i] = *value;
     }
     return v;
@@ -122,8 +123,9 @@ void set_aovs(Options& options, const std::string& text) {
 
 void set_output(Options& options, const std::string& text) {
     const std::filesystem::path path(text);
-    if (path.extension() == ".png" || path.extension() == ".json") {
-        refuse("--output", text, "the name of an OpenEXR file; .png and .json of the same stem are written beside it");
+    if (path.extension() == ".png" || path.extension() == ".json" || path.extension() == ".resume") {
+        refuse("--output", text,
+               "the name of an OpenEXR file; .png, .json and .resume of the same stem are written beside it");
     }
     if (!path.has_filename()) refuse("--output", text, "a file name");
     options.output = path;
@@ -154,8 +156,8 @@ void check_together(const Options& options) {
         throw usage_error("--target is the same point as --eye: give two that differ");
     }
     if (options.up) {
-        const glm::vec3 across = glm::cross(*options.target - *options.eye, *options.up);
-        if (across == glm::vec3(0.0f)) throw usage_error("--up points along the view: give another direction");
+        const glm::dvec3 across = glm::cross(*options.target - *options.eye, glm::dvec3(*options.up));
+        if (across == glm::dvec3(0.0)) throw usage_error("--up points along the view: give another direction");
     }
 }
 
@@ -237,7 +239,7 @@ Options parse_options(int argc, const char* const* argv) {
     text("--target", "X,Y,Z", "point the camera looks at",
          [&](const std::string& s) { options.target = vector_of("--target", s); });
     text("--up", "X,Y,Z", "upwards in the picture (0,1,0)",
-         [&](const std::string& s) { options.up = vector_of("--up", s); });
+         [&](const std::string& s) { options.up = glm::vec3(vector_of("--up", s)); });
     text("--fov", "DEG", "vertical field of view (45 with --eye, else the camera's)", [&](const std::string& s) {
         options.fov = number_in("--fov", s, 1e-3f, 179.0f, "degrees between 0.001 and 179");
     });
@@ -272,8 +274,14 @@ Options parse_options(int argc, const char* const* argv) {
         if (s.empty()) refuse("--lights", "''", "a file name");
         options.lights = s;
     });
-    count("--area-points", "lights per emissive surface or sphere (64); 0 leaves them out", 0, many,
+    count("--area-points", "lights per emissive surface or sphere, at most (64); 0 leaves them out", 0, many,
           options.area_points);
+    text("--area-lights", "N",
+         "about the most lights on all emissive surfaces together, 0: any number (200000 if there are more than 3125)",
+         [&](const std::string& s) {
+             options.area_lights = number_in<std::uint32_t>("--area-lights", s, 0, many,
+                                                            "a whole number from 0 to " + std::to_string(many));
+         });
     text("--env", "FILE", "latitude-longitude map around the scene, .exr or .hdr", [&](const std::string& s) {
         if (s.empty()) refuse("--env", "''", "a file name");
         options.env = s;
@@ -326,6 +334,7 @@ Options parse_options(int argc, const char* const* argv) {
         options.seed = number_in<std::uint64_t>("--seed", s, 0, std::numeric_limits<std::uint64_t>::max(),
                                                 "a whole number of at least 0");
     });
+    app.add_flag("--resume", options.resume, "go on with the interrupted picture that --output names");
     app.add_flag("--quiet", options.quiet, "print nothing but errors");
 
     for (const std::string& name : later_options) {
@@ -343,7 +352,9 @@ Options parse_options(int argc, const char* const* argv) {
         return options;
     } catch (const CLI::ParseError& e) { throw usage_error(one_line(e.what())); }
     for (const CLI::Option* option : app.get_options()) {
-        if (option->count() > 0) options.given.push_back(option->get_name());
+        if (option->count() == 0) continue;
+        options.given.push_back(option->get_name());
+        options.given_texts.push_back(listed(option->results()));
     }
     if (version) options.action = Options::Action::version;
     if (list_scenes) options.action = Options::Action::list_scenes;

@@ -37,9 +37,9 @@ struct Options {
     int height = 480;
     int spp = 1;
 
-    std::string camera;            ///< name of one of the scene's cameras; empty: its first
-    std::optional<glm::vec3> eye;  ///< with `target`: a camera of the user's
-    std::optional<glm::vec3> target;
+    std::string camera;             ///< name of one of the scene's cameras; empty: its first
+    std::optional<glm::dvec3> eye;  ///< with `target`: a camera of the user's
+    std::optional<glm::dvec3> target;
     std::optional<glm::vec3> up;
     std::optional<float> fov;  ///< vertical, degrees
 
@@ -53,12 +53,13 @@ struct Options {
     float splitting_threshold = 0.1f;
     std::string builder = "binned";  ///< binned, agglomerate or longest-axis
 
-    std::filesystem::path lights;     ///< CSV with more lights; empty: none
-    std::uint32_t area_points = 64;   ///< lights per emissive surface or sphere; 0: none
-    std::filesystem::path env;        ///< latitude-longitude map around the scene; empty: none
-    std::uint32_t env_lights = 3000;  ///< that stand for it; 0: it is only seen
-    float env_scale = 1.0f;           ///< of its radiance
-    float env_rotate = 0.0f;          ///< degrees, counter-clockwise about +y seen from above
+    std::filesystem::path lights;              ///< CSV with more lights; empty: none
+    std::uint32_t area_points = 64;            ///< lights per emissive surface or sphere, at most; 0: none
+    std::optional<std::uint32_t> area_lights;  ///< about the most on all emissive surfaces; 0: any number
+    std::filesystem::path env;                 ///< latitude-longitude map around the scene; empty: none
+    std::uint32_t env_lights = 3000;           ///< that stand for it; 0: it is only seen
+    float env_scale = 1.0f;                    ///< of its radiance
+    float env_rotate = 0.0f;                   ///< degrees, counter-clockwise about +y seen from above
     std::optional<SunPosition> sun_sky;
     float turbidity = 3.0f;
     std::uint32_t sky_lights = 5000;  ///< that stand for the sky; 0: it is only seen
@@ -74,7 +75,10 @@ struct Options {
     std::uint64_t seed = 1;
     bool quiet = false;
 
-    std::vector<std::string> given;  ///< long names of those that the command line sets
+    bool resume = false;  ///< go on with an interrupted picture
+
+    std::vector<std::string> given;        ///< long names of those that the command line sets
+    std::vector<std::string> given_texts;  ///< what it sets each of them to
 
     bool is_given(const std::string& name) const;
     bool has_aov(const std::string& name) const;

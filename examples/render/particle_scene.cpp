@@ -23,6 +23,18 @@ SurfacePoint point_of(const ParticleScene::Meeting& met, const glm::vec3& direct
     return point;
 }
 
+/// About the albedo of all lobes seen from `-direction`, and what goes on as rays.
+glm::vec3 albedo_of(const ParticleScene::Meeting& met, const glm::vec3& direction) {
+    const SurfaceLobes& lobes = met.response.lobes;
+    glm::vec3 gloss = lobes.specular;
+    if (lobes.model == SurfaceLobes::Model::microfacet) {
+        gloss = glm::mix(gloss, glm::vec3(lobes.grazing), schlick(-glm::dot(met.surface.shading_normal, direction)));
+    }
+    glm::vec3 sum = met.response.cover * (lobes.diffuse + gloss + lobes.transmitted);
+    for (const Onward& way : met.response.onward()) sum += way.share;
+    return sum;
+}
+
 }  // namespace
 
 ParticleScene::ParticleScene(const Scene& scene, const RayScene& rays, Shade shade)
@@ -40,7 +52,7 @@ std::optional<ParticleScene::Meeting> ParticleScene::intersect(const glm::vec3& 
     const SurfaceColors colors = colors_at(scene_, hit->triangle, hit->u, hit->v);
     std::optional<Meeting> result(std::in_place);
     Meeting& met = *result;
-    met.surface = surface_at(scene_, *hit, origin, direction);
+    met.surface = surface_at(scene_, *hit, direction);
     met.response = response_of(material, colors, met.surface, direction, shade_);
     met.normal = met.surface.geometric_normal;
     met.position = met.surface.leave(met.normal);
@@ -58,6 +70,15 @@ glm::vec3 ParticleScene::diffuse_transmittance(const Meeting& met) const {
 
 lightcuts::ScatteredParticle<> ParticleScene::scatter(const Meeting& met, const glm::vec3& direction,
                                                       const glm::vec3& u) const {
+    lightcuts::ScatteredParticle<> particle = draw(met, direction, u);
+    // Lobes that add up to more than 1 would fill a room with ever more light.
+    const glm::vec3 albedo = albedo_of(met, direction);
+    particle.weight /= std::max({albedo.r, albedo.g, albedo.b, 1.0f});
+    return particle;
+}
+
+lightcuts::ScatteredParticle<> ParticleScene::draw(const Meeting& met, const glm::vec3& direction,
+                                                   const glm::vec3& u) const {
     const LobeSampler lobes(met.response.lobes, met.surface.shading_normal, -direction);
     const double reflected = met.response.cover * (lobes.diffuse_share() + lobes.gloss_share());
     const double transmitted = met.response.cover * mean(met.response.lobes.transmitted);

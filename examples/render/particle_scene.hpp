@@ -35,12 +35,15 @@ public:
 
     /// One of the ways on, in proportion to what it carries: holes, panes, mirrors and glass, or a direction drawn from
     /// the sum of both reflecting lobes [Veach 1995, balance heuristic] or from the one behind; GGX's from the visible
-    /// normals [Heitz 2018].
+    /// normals [Heitz 2018]. Where they carry more than what arrives, all are scaled down to that.
     lightcuts::ScatteredParticle<> scatter(const Meeting& met, const glm::vec3& direction, const glm::vec3& u) const;
 
     const lightcuts::Box& bounds() const { return bounds_; }
 
 private:
+    /// `scatter`, not scaled.
+    lightcuts::ScatteredParticle<> draw(const Meeting& met, const glm::vec3& direction, const glm::vec3& u) const;
+
     const Scene& scene_;
     const RayScene& rays_;
     Shade shade_;

@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <fstream>
 #include <new>
+#include <utility>
 
-#include <ImathBox.h>
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
-#include <ImfInputFile.h>
+#include <ImfIO.h>
 #include <ImfOutputFile.h>
 #include <glm/common.hpp>
 #include <lightcuts/core/invalid_input.hpp>
@@ -19,7 +18,10 @@
 #define STB_IMAGE_WRITE_STATIC
 #include <stb_image_write.h>
 
+#include "io/exr_picture.hpp"
 #include "luminance.hpp"
+#include "output_file.hpp"
+#include "text_file.hpp"
 
 namespace render {
 
@@ -34,6 +36,27 @@ Imf::Slice slice(const float* first, int width, std::size_t stride) {
     auto* base = const_cast<char*>(reinterpret_cast<const char*>(first));
     return {Imf::FLOAT, base, stride, stride * static_cast<std::size_t>(width)};
 }
+
+/// What OpenEXR writes, in memory: there nothing goes wrong unseen when a file is closed.
+class ByteStream final : public Imf::OStream {
+public:
+    ByteStream() : Imf::OStream("memory") {}
+
+    void write(const char bytes[], int count) override {
+        const std::size_t end = position_ + static_cast<std::size_t>(count);
+        if (end > bytes_.size()) bytes_.resize(end);
+        std::copy(bytes, bytes + count, bytes_.begin() + static_cast<std::ptrdiff_t>(position_));
+        position_ = end;
+    }
+    std::uint64_t tellp() override { return position_; }
+    void seekp(std::uint64_t position) override { position_ = position; }
+
+    std::vector<char> take() { return std::move(bytes_); }
+
+private:
+    std::vector<char> bytes_;
+    std::size_t position_ = 0;
+};
 
 float srgb_from_linear(float v) { return v <= 0.0031308f ? 12.92f * v : 1.055f * std::pow(v, 1.0f / 2.4f) - 0.055f; }
 
@@ -59,71 +82,36 @@ Picture::Channel* Picture::find(const std::string& name) {
     return const_cast<Channel*>(static_cast<const Picture*>(this)->find(name));
 }
 
-void write_exr(const std::filesystem::path& path, const Picture& picture) {
-    try {
-        Imf::Header header(picture.width, picture.height);
-        header.compression() = Imf::ZIP_COMPRESSION;
-        Imf::FrameBuffer buffer;
-        for (int c = 0; c < 3; ++c) {
-            header.channels().insert(color_names[c], Imf::Channel(Imf::FLOAT));
-            buffer.insert(color_names[c], slice(&picture.pixels[0][c], picture.width, sizeof(glm::vec3)));
-        }
-        for (const Picture::Channel& channel : picture.channels) {
-            header.channels().insert(channel.name, Imf::Channel(Imf::FLOAT));
-            buffer.insert(channel.name, slice(channel.values.data(), picture.width, sizeof(float)));
-        }
-        Imf::OutputFile file(path.c_str(), header);
+std::vector<char> exr_bytes(const Picture& picture) {
+    Imf::Header header(picture.width, picture.height);
+    header.compression() = Imf::ZIP_COMPRESSION;
+    Imf::FrameBuffer buffer;
+    for (int c = 0; c < 3; ++c) {
+        header.channels().insert(color_names[c], Imf::Channel(Imf::FLOAT));
+        buffer.insert(color_names[c], slice(&picture.pixels[0][c], picture.width, sizeof(glm::vec3)));
+    }
+    for (const Picture::Channel& channel : picture.channels) {
+        header.channels().insert(channel.name, Imf::Channel(Imf::FLOAT));
+        buffer.insert(channel.name, slice(channel.values.data(), picture.width, sizeof(float)));
+    }
+    ByteStream stream;
+    {
+        Imf::OutputFile file(stream, header);
         file.setFrameBuffer(buffer);
         file.writePixels(picture.height);
-    } catch (const std::exception& e) {
-        throw invalid_input(path.string() + ": cannot be written as OpenEXR (" + e.what() + ")");
+        // The table of the lines' places, at the front, is written when the file goes away.
     }
+    return stream.take();
 }
+
+void write_exr(const std::filesystem::path& path, const Picture& picture) { write_file(path, exr_bytes(picture)); }
 
 Picture read_exr(const std::filesystem::path& path) {
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(path, ignored)) {
         throw invalid_input(path.string() + ": no such file; give an OpenEXR picture");
     }
-    try {
-        Imf::InputFile file(path.c_str());
-        const Imath::Box2i window = file.header().dataWindow();
-        Picture picture(window.max.x - window.min.x + 1, window.max.y - window.min.y + 1);
-        const Imf::ChannelList& in_file = file.header().channels();
-        const bool grey = !in_file.findChannel("R") && in_file.findChannel("Y");
-
-        // OpenEXR addresses pixels from the origin of coordinates, not from the window's corner.
-        const auto from_origin = [&](const Imf::Slice& s) {
-            Imf::Slice moved = s;
-            moved.base -= static_cast<std::ptrdiff_t>(s.xStride) * window.min.x +
-                          static_cast<std::ptrdiff_t>(s.yStride) * window.min.y;
-            return moved;
-        };
-        Imf::FrameBuffer buffer;
-        for (int c = 0; c < 3; ++c) {
-            if (!in_file.findChannel(grey ? "Y" : color_names[c])) throw std::runtime_error("no R, G and B");
-            if (grey && c > 0) break;
-            buffer.insert(grey ? "Y" : color_names[c],
-                          from_origin(slice(&picture.pixels[0][c], picture.width, sizeof(glm::vec3))));
-        }
-        for (auto channel = in_file.begin(); channel != in_file.end(); ++channel) {
-            const std::string name = channel.name();
-            if (buffer.findSlice(name)) continue;
-            if (channel.channel().xSampling != 1 || channel.channel().ySampling != 1) continue;
-            picture.add_channel(name);
-        }
-        for (const Picture::Channel& channel : picture.channels) {
-            buffer.insert(channel.name, from_origin(slice(channel.values.data(), picture.width, sizeof(float))));
-        }
-        file.setFrameBuffer(buffer);
-        file.readPixels(window.min.y, window.max.y);
-        if (grey) {
-            for (glm::vec3& pixel : picture.pixels) pixel = glm::vec3(pixel.x);
-        }
-        return picture;
-    } catch (const std::exception& e) {
-        throw invalid_input(path.string() + ": cannot be read as an OpenEXR picture (" + e.what() + ")");
-    }
+    return exr_picture(read_file(path), path.string(), ExrUse::picture);
 }
 
 std::vector<char> png_bytes(int width, int height, const std::vector<glm::vec3>& colors) {
@@ -143,11 +131,7 @@ std::vector<char> png_bytes(int width, int height, const std::vector<glm::vec3>&
 }
 
 void write_png(const std::filesystem::path& path, int width, int height, const std::vector<glm::vec3>& colors) {
-    const std::vector<char> bytes = png_bytes(width, height, colors);
-    std::ofstream file(path, std::ios::binary);
-    file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    file.close();
-    if (!file) throw invalid_input(path.string() + ": cannot be written; is the disk full?");
+    write_file(path, png_bytes(width, height, colors));
 }
 
 ToneCurve tone_curve(const Picture& picture) {

@@ -36,17 +36,20 @@ struct Picture {
     Channel* find(const std::string& name);
 };
 
-/// Writes R, G, B and the channels as 32-bit floats, losslessly compressed. throws: invalid_input with the path.
+/// An OpenEXR file of R, G, B and the channels as 32-bit floats, losslessly compressed.
+std::vector<char> exr_bytes(const Picture& picture);
+
+/// Writes `exr_bytes` in one step. throws: invalid_input with the path.
 void write_exr(const std::filesystem::path& path, const Picture& picture);
 
-/// Reads R, G, B (or Y as grey) and all other channels as floats, whatever their type in the file.
+/// Reads the colour and all other channels of an OpenEXR file, as `exr_picture` does.
 /// throws: invalid_input with the path when it cannot be read or has no colour.
 Picture read_exr(const std::filesystem::path& path);
 
 /// A PNG file of 8-bit sRGB colours; `colors` in [0, 1], rows from the top. throws: std::bad_alloc.
 std::vector<char> png_bytes(int width, int height, const std::vector<glm::vec3>& colors);
 
-/// Writes `png_bytes`. throws: invalid_input with the path.
+/// Writes `png_bytes` in one step. throws: invalid_input with the path.
 void write_png(const std::filesystem::path& path, int width, int height, const std::vector<glm::vec3>& colors);
 
 /// How radiance becomes a colour in [0, 1] before the sRGB curve: exposed, bright parts compressed per channel by

@@ -1,6 +1,7 @@
 #include "prepare_scene.hpp"
 
 #include "emitters.hpp"
+#include "indirect.hpp"
 #include "light_table.hpp"
 #include "load_scene.hpp"
 #include "spheres.hpp"
@@ -12,10 +13,11 @@ namespace render {
 Scene prepare_scene(Options& options) {
     Scene scene = load_scene(options.scene);
     if (!options.lights.empty()) add_light_table(options.lights, scene);
-    add_emitter_lights(scene, options.area_points);
+    add_emitter_lights(scene, {.points = options.area_points, .total = options.area_lights});
     add_sphere_lights(scene, options.area_points, options.seed);
     add_surroundings(scene, options);
     require_lights(scene);
+    if (options.indirect > 0) name_amplifying_materials(scene);
     return scene;
 }
 

@@ -4,9 +4,11 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <new>
 #include <stdexcept>
 #include <string>
 
+#include "memory.hpp"
 #include "surface_colors.hpp"
 
 namespace render {
@@ -71,12 +73,18 @@ RTCRay make_ray(const glm::vec3& origin, const glm::vec3& direction, float end) 
     return ray;
 }
 
+/// What Embree last said in this thread.
+thread_local std::string embree_words;
+
+void keep_words(void*, RTCError, const char* words) { embree_words = words ? words : ""; }
+
+/// Embree gives a thread or a block that the system refuses any of two names.
 void require(RTCDevice device) {
     const RTCError error = rtcGetDeviceError(device);
     if (error == RTC_ERROR_NONE) return;
-    throw std::runtime_error(error == RTC_ERROR_OUT_OF_MEMORY
-                                 ? std::string("not enough memory for the ray tracer's hierarchy")
-                                 : "Embree failed with error " + std::to_string(static_cast<int>(error)));
+    if (error == RTC_ERROR_OUT_OF_MEMORY || is_memory_short()) throw std::bad_alloc();
+    throw std::runtime_error("Embree failed with error " + std::to_string(static_cast<int>(error)) + ": " +
+                             embree_words);
 }
 
 }  // namespace
@@ -89,6 +97,7 @@ RayScene::RayScene(const Scene& scene, const RayTracer& tracer, const RayOptions
     }
     transmissive_ = !translucent_.empty();
 
+    rtcSetDeviceErrorFunction(tracer_.device(), keep_words, nullptr);
     scene_ = rtcNewScene(tracer_.device());
     try {
         // A high-quality hierarchy would split triangles and report one surface twice to the filters.

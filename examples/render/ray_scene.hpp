@@ -55,6 +55,7 @@ public:
 
     /// For occlusion queries by others. pre: `!transmissive()`, as the filters expect a context of this class.
     RTCScene embree_scene() const { return scene_; }
+    const RayTracer& tracer() const { return tracer_; }
 
     /// Shadow rays end at this share of the way to a light, so that the surface which the light lies on is not hit.
     static constexpr float shadow_ray_end = 1.0f - 1e-4f;

@@ -1,13 +1,16 @@
 #include "ray_tracer.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <memory>
+#include <new>
 #include <stdexcept>
 #include <string_view>
 #include <type_traits>
 
 #include <lightcuts/core/invalid_input.hpp>
 
+#include "memory.hpp"
 #include "options.hpp"
 
 namespace render {
@@ -31,13 +34,14 @@ struct Release {
 using Device = std::unique_ptr<std::remove_pointer_t<RTCDevice>, Release>;
 
 /// Embree with this instruction set, or as it chooses; empty if the processor lacks it.
-/// throws: std::runtime_error if something else is wrong.
+/// throws: std::bad_alloc, or std::runtime_error if something else is wrong.
 Device start(const char* isa) {
     Device device(rtcNewDevice(isa ? (std::string("isa=") + isa).c_str() : nullptr));
-    if (!device && rtcGetDeviceError(nullptr) != RTC_ERROR_UNSUPPORTED_CPU) {
-        throw std::runtime_error("Embree cannot be started on this machine");
-    }
-    return device;
+    if (device) return device;
+    const RTCError error = rtcGetDeviceError(nullptr);
+    if (error == RTC_ERROR_UNSUPPORTED_CPU) return device;
+    if (error == RTC_ERROR_OUT_OF_MEMORY || is_memory_short()) throw std::bad_alloc();
+    throw std::runtime_error("Embree cannot be started on this machine");
 }
 
 /// Whether Embree was compiled for it. Embree itself falls back to the next one that it was compiled for and says

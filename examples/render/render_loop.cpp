@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/enumerable_thread_specific.h>
@@ -10,6 +11,7 @@
 
 #include "interrupt.hpp"
 #include "progress.hpp"
+#include "resume_file.hpp"
 #include "tile_order.hpp"
 
 namespace render {
@@ -45,8 +47,8 @@ public:
                  Picture& picture)
         : view_(view), surfaces_(surfaces), shader_(shader), options_(options), picture_(picture) {}
 
-    /// Fills the tile's pixels.
-    RenderStatistics render(const Tile& tile, Workspace& work) const {
+    /// Fills the tile's pixels; nothing if it is interrupted.
+    std::optional<RenderStatistics> render(const Tile& tile, Workspace& work) const {
         RenderStatistics statistics;
         const int columns = tile.x1 - tile.x0;
         work.sums.assign(static_cast<std::size_t>(columns * (tile.y1 - tile.y0)), PixelSum{});
@@ -54,6 +56,7 @@ public:
         for (int sample = 0; sample < options_.spp; ++sample) {
             for (int y = tile.y0; y < tile.y1; ++y) {
                 for (int x = tile.x0; x < tile.x1; ++x) {
+                    if (interrupted()) return std::nullopt;
                     PixelSum& sum = work.sums[static_cast<std::size_t>((y - tile.y0) * columns + x - tile.x0)];
                     cast(x, y, sample, sum, work.points);
                     if (work.points.size() >= largest_batch) shade(tile, work, statistics);
@@ -61,6 +64,8 @@ public:
             }
         }
         shade(tile, work, statistics);
+        // The last points may be those that were given up.
+        if (interrupted()) return std::nullopt;
         store(tile, work.sums, statistics);
         return statistics;
     }
@@ -179,34 +184,93 @@ void accumulate(RenderStatistics& total, const RenderStatistics& tile) {
     total.largest_clamp_threshold = std::max(total.largest_clamp_threshold, tile.largest_clamp_threshold);
 }
 
+/// The pixels of a tile and its statistics, out of and into a picture.
+class TileExchange {
+public:
+    explicit TileExchange(Picture& picture) : picture_(picture) {}
+
+    std::size_t value_count(const Tile& tile) const {
+        const int pixels = (tile.x1 - tile.x0) * (tile.y1 - tile.y0);
+        return static_cast<std::size_t>(pixels) * (3 + picture_.channels.size());
+    }
+
+    std::vector<float> values(const Tile& tile) const {
+        std::vector<float> result;
+        result.reserve(value_count(tile));
+        for_each_value(tile, [&](const float& value) { result.push_back(value); });
+        return result;
+    }
+
+    /// pre: as many as `value_count`.
+    void set(const Tile& tile, const std::vector<float>& values) {
+        auto next = values.begin();
+        for_each_value(tile, [&](float& value) { value = *next++; });
+    }
+
+private:
+    template <class F>
+    void for_each_value(const Tile& tile, F&& f) const {
+        for (int y = tile.y0; y < tile.y1; ++y) {
+            for (int x = tile.x0; x < tile.x1; ++x) {
+                const auto pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(picture_.width) +
+                                   static_cast<std::size_t>(x);
+                for (int c = 0; c < 3; ++c) f(picture_.pixels[pixel][c]);
+                for (Picture::Channel& channel : picture_.channels) f(channel.values[pixel]);
+            }
+        }
+    }
+
+    Picture& picture_;
+};
+
 }  // namespace
 
-Rendering render_picture(const View& view, const SurfaceFinder& surfaces, const Shader& shader,
-                         const Options& options) {
+Rendering render_picture(const View& view, const SurfaceFinder& surfaces, const Shader& shader, const Options& options,
+                         ResumeFile* resume_file) {
     Rendering rendering;
     rendering.picture = Picture(view.width(), view.height());
     add_channels(rendering.picture, options);
     const TileRenderer renderer(view, surfaces, shader, options, rendering.picture);
 
     const std::vector<Tile> tiles = tiles_of(view.width(), view.height(), tile_side);
-    std::vector<RenderStatistics> by_tile(tiles.size());
+    std::vector<std::optional<RenderStatistics>> by_tile(tiles.size());
+    TileExchange exchange(rendering.picture);
+    if (resume_file) {
+        std::vector<std::size_t> counts;
+        counts.reserve(tiles.size());
+        for (const Tile& tile : tiles) counts.push_back(exchange.value_count(tile));
+        resume_file->read(counts, [&](const FinishedTile& finished) {
+            by_tile[finished.tile] = finished.statistics;
+            exchange.set(tiles[finished.tile], finished.values);
+            ++rendering.resumed_tiles;
+        });
+    }
     tbb::enumerable_thread_specific<Workspace> workspaces([&] {
         Workspace work;
         work.scratch = shader.make_scratch();
         return work;
     });
     {
-        Progress progress(tiles.size(), !options.quiet);
+        Progress progress(tiles.size() - rendering.resumed_tiles, !options.quiet);
         tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tiles.size(), 1), [&](const auto& range) {
             for (std::size_t t = range.begin(); t < range.end() && !interrupted(); ++t) {
+                if (by_tile[t]) continue;
                 by_tile[t] = renderer.render(tiles[t], workspaces.local());
+                if (!by_tile[t]) return;
+                if (resume_file) {
+                    resume_file->append({static_cast<std::uint32_t>(t), *by_tile[t], exchange.values(tiles[t])});
+                }
                 progress.step();
             }
         });
     }
     // Added in the tiles' order: sums of floating-point numbers do not depend on who was first.
-    for (const RenderStatistics& tile : by_tile) accumulate(rendering.statistics, tile);
-    rendering.interrupted = rendering.statistics.pixels < rendering.picture.size();
+    for (const std::optional<RenderStatistics>& tile : by_tile) {
+        if (!tile) continue;
+        accumulate(rendering.statistics, *tile);
+        ++rendering.tiles;
+    }
+    rendering.interrupted = rendering.tiles < tiles.size();
     return rendering;
 }
 

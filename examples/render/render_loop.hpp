@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 
@@ -27,17 +28,23 @@ struct RenderStatistics {
     double largest_clamp_threshold = 0;
 };
 
+class ResumeFile;
+
 struct Rendering {
     Picture picture;
     RenderStatistics statistics;
-    bool interrupted = false;  ///< pixels that were not finished are black
+    bool interrupted = false;       ///< pixels that were not finished are black
+    std::size_t tiles = 0;          ///< finished
+    std::size_t resumed_tiles = 0;  ///< of these, by an earlier run
 };
 
-/// Renders with `options.spp` eye rays a pixel. Tiles are spread over the threads of the calling task arena; Ctrl-C
-/// (`interrupted()`) ends the work after the tiles at hand. The picture is the same for any number of threads.
+/// Renders with `options.spp` eye rays a pixel. Tiles are spread over the threads of the calling task arena; a signal
+/// (`interrupted()`) ends the work at once, and the tiles at hand are left out. The picture is the same for any number
+/// of threads. `resume_file`, if there is one, gives the tiles that are in it and gets the others.
 /// Channels as `options.aovs` asks: `cut_size`, `shadow_rays` (sums along an eye ray, mean over the pixel's rays),
 /// `error_bound.R` `.G` `.B` (likewise, weighted along mirror paths), `depth` (mean over the rays that hit a surface,
 /// infinite if none does), `normal.X` `.Y` `.Z` (mean of the first hits' shading normals).
-Rendering render_picture(const View& view, const SurfaceFinder& surfaces, const Shader& shader, const Options& options);
+Rendering render_picture(const View& view, const SurfaceFinder& surfaces, const Shader& shader, const Options& options,
+                         ResumeFile* resume_file = nullptr);
 
 }  // namespace render

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -16,6 +17,7 @@
 #include <lightcuts/source/sphere.hpp>
 
 #include "background.hpp"
+#include "io/left_out.hpp"
 #include "lighting.hpp"
 
 namespace render {
@@ -23,6 +25,7 @@ namespace render {
 /// Pixels in linear light; u to the right, v downwards.
 struct Texture {
     enum class Wrap { repeat, clamp, mirror };  ///< what lies outside [0, 1)
+    enum class Filter { linear, nearest };      ///< what lies between texels
 
     std::string name;
     int width = 0;
@@ -30,8 +33,9 @@ struct Texture {
     std::vector<glm::vec4> texels;  ///< row by row from the top
     Wrap wrap_u = Wrap::repeat;
     Wrap wrap_v = Wrap::repeat;
+    Filter filter = Filter::linear;
 
-    glm::vec4 sample(glm::vec2 uv) const;  ///< bilinear
+    glm::vec4 sample(glm::vec2 uv) const;
 };
 
 inline constexpr int no_texture = -1;
@@ -45,56 +49,90 @@ struct UvTransform {
     glm::vec2 operator()(glm::vec2 uv) const { return offset + uv.x * u_axis + uv.y * v_axis; }
 };
 
+/// How a material looks a value up in a texture.
+struct TextureUse {
+    int texture = no_texture;  ///< in Scene::textures
+    std::uint32_t uv_set = 0;  ///< in Scene::uv_sets
+    UvTransform uv;
+
+    bool is_there() const { return texture != no_texture; }
+};
+
 /// What a surface does with light, as the scene file states it. Colours are linear.
 struct Material {
-    enum class Model { microfacet, phong, mirror, glass };  ///< microfacet: glTF; the others: OBJ's illum and Ks
+    /// microfacet: glTF; specular_glossiness: its older extension; unlit: emits its base colour and reflects nothing;
+    /// the others: OBJ's illum and Ks.
+    enum class Model { microfacet, specular_glossiness, unlit, phong, mirror, glass };
     enum class Alpha { opaque, mask, blend };
 
     std::string name;
     Model model = Model::microfacet;
-    glm::vec3 base_color{0.8f};  ///< microfacet: base colour; phong: Kd; mirror: reflectance; glass: tint
-    int base_color_texture = no_texture;
-    UvTransform base_color_uv;
-    float metallic = 0.0f;
-    float roughness = 1.0f;
-    int metallic_roughness_texture = no_texture;
-    UvTransform metallic_roughness_uv;
-    glm::vec3 specular{0.0f};           ///< phong: Ks
-    float exponent = 0.0f;              ///< phong: Ns
-    float ior = 1.5f;                   ///< glass
-    float transmission = 0.0f;          ///< share of light that a shadow ray keeps, times base_color (1 for glass)
-    float diffuse_transmission = 0.0f;  ///< share of the diffuse part that takes light from behind
-    int diffuse_transmission_texture = no_texture;  ///< in its alpha
-    UvTransform diffuse_transmission_uv;
+    /// microfacet: base colour; specular_glossiness: diffuse albedo; phong: Kd; mirror: reflectance; glass: tint. Times
+    /// the vertex colour.
+    glm::vec3 base_color{0.8f};
+    TextureUse base_color_texture;
+    float metallic = 0.0f;   ///< microfacet
+    float roughness = 1.0f;  ///< microfacet; specular_glossiness: 1 - glossiness
+    TextureUse metallic_roughness_texture;
+    glm::vec3 specular{0.0f};       ///< phong: Ks; specular_glossiness: reflectance at normal incidence
+    glm::vec3 specular_tint{1.0f};  ///< microfacet: of what `ior` says that a dielectric reflects at normal incidence
+    TextureUse specular_texture;    ///< times these; specular_glossiness: and, in its alpha, times 1 - roughness
+    float specular_weight = 1.0f;   ///< microfacet: times a dielectric's reflection at all angles
+    TextureUse specular_weight_texture;  ///< in its alpha
+    float exponent = 0.0f;               ///< phong: Ns
+    float ior = 1.5f;                    ///< glass; microfacet, where 0 means infinite
+    float transmission = 0.0f;           ///< share of light that a shadow ray keeps, times base_color (1 for glass)
+    float diffuse_transmission = 0.0f;   ///< share of the diffuse part that takes light from behind
+    TextureUse diffuse_transmission_texture;     ///< in its alpha
     glm::vec3 diffuse_transmission_color{1.0f};  ///< that share's
-    int diffuse_transmission_color_texture = no_texture;
-    UvTransform diffuse_transmission_color_uv;
+    TextureUse diffuse_transmission_color_texture;
+    TextureUse normal_texture;  ///< bends the shading normal
+    float normal_scale = 1.0f;
     glm::vec3 emission{0.0f};  ///< emitted radiance
-    int emission_texture = no_texture;
-    UvTransform emission_uv;
+    TextureUse emission_texture;
     bool double_sided = false;  ///< an emitter emits on both sides
     bool only_seen = false;     ///< its emission lights nothing: other lights of the scene stand for it
     Alpha alpha = Alpha::opaque;
     float alpha_cutoff = 0.5f;
     float base_alpha = 1.0f;
-    int alpha_texture = no_texture;  ///< its alpha stands in for the base colour texture's, where there is one
+    TextureUse alpha_texture;  ///< its alpha stands in for the base colour texture's, where there is one
 };
 
+/// All places in which a material may name a texture.
+inline std::array<const TextureUse*, 9> textures_of(const Material& m) {
+    return {&m.base_color_texture,
+            &m.metallic_roughness_texture,
+            &m.specular_texture,
+            &m.specular_weight_texture,
+            &m.diffuse_transmission_texture,
+            &m.diffuse_transmission_color_texture,
+            &m.normal_texture,
+            &m.emission_texture,
+            &m.alpha_texture};
+}
+
+/// In world coordinates.
 struct Camera {
     std::string name;
-    glm::vec3 eye{0.0f};
-    glm::vec3 target{0.0f, 0.0f, -1.0f};
+    glm::dvec3 eye{0.0};
+    glm::dvec3 target{0.0, 0.0, -1.0};
     glm::vec3 up{0.0f, 1.0f, 0.0f};
     float vertical_fov = 45.0f;  ///< degrees
+    double height = 0.0;         ///< of the view of an orthographic camera; 0: perspective
+    std::string other_name{};    ///< by which it can be chosen, too
 };
 
 /// A triangle mesh with everything that lights it and looks at it. Per-vertex arrays have one entry a position, or
-/// none at all: a scene without uvs has no uv array.
+/// none at all: a scene without colours has no array of them. Positions, also those of lights, are world coordinates
+/// less `origin`.
 struct Scene {
     std::string name;
+    glm::dvec3 origin{0.0};
     std::vector<glm::vec3> positions;
-    std::vector<glm::vec3> normals;  ///< empty, or per vertex; a zero normal asks for the flat face's
-    std::vector<glm::vec2> uvs;      ///< empty, or per vertex
+    std::vector<glm::vec3> normals;   ///< empty, or per vertex; a zero normal asks for the flat face's
+    std::vector<glm::vec4> tangents;  ///< empty, or per vertex: along u, and the sign of the bitangent; 0: from the uvs
+    std::vector<glm::vec4> colors;    ///< empty, or per vertex, in [0, 1]: times base colour and alpha
+    std::vector<std::vector<glm::vec2>> uv_sets;  ///< each empty, or per vertex
     std::vector<glm::uvec3> triangles;
     std::vector<std::uint32_t> triangle_material;
     std::vector<Material> materials;
@@ -118,6 +156,7 @@ struct Scene {
 
     std::size_t dropped_triangles = 0;  ///< of zero area, left out when the scene was checked
     std::size_t dropped_lights = 0;     ///< of zero intensity, left out likewise
+    std::vector<LeftOut> left_out;      ///< of what the files carry
 
     /// Those that are added up at a point, of all kinds: spheres count by their points.
     std::size_t light_count() const {

@@ -60,9 +60,10 @@ struct Place {
         return value.get<std::string>();
     }
 
-    float number() const {
-        const float number = value.is_number() ? value.get<float>() : NAN;
-        if (!std::isfinite(number)) fail("expected a finite number");
+    double number() const {
+        const double number = value.is_number() ? value.get<double>() : NAN;
+        // What a float cannot hold cannot be rendered.
+        if (!std::isfinite(static_cast<float>(number))) fail("expected a finite number");
         return number;
     }
 
@@ -70,7 +71,7 @@ struct Place {
         if (!value.is_array() || value.size() != count) fail(std::string("expected ") + wanted);
     }
 
-    glm::vec3 vector() const {
+    glm::dvec3 vector() const {
         require_numbers(3, "three numbers");
         return {at(0).number(), at(1).number(), at(2).number()};
     }
@@ -88,8 +89,8 @@ SheetCamera camera_of(const Place& place, std::size_t index) {
     result.camera.name = std::to_string(index);
     result.camera.eye = place.at("eye").vector();
     result.camera.target = place.at("target").vector();
-    result.camera.up = place.at("up").vector();
-    result.camera.vertical_fov = place.at("vfov_deg").number();
+    result.camera.up = glm::vec3(place.at("up").vector());
+    result.camera.vertical_fov = static_cast<float>(place.at("vfov_deg").number());
     const Place resolution = place.at("resolution");
     resolution.require_numbers(2, "a width and a height in pixels");
     result.width = resolution.at(0).side();
@@ -98,21 +99,20 @@ SheetCamera camera_of(const Place& place, std::size_t index) {
     return result;
 }
 
-Json parse(const std::filesystem::path& path) {
-    const std::string text = read_file(path);
+Json parse(const std::filesystem::path& path, const std::string& text) {
     try {
         return Json::parse(text);
     } catch (const Json::parse_error& e) {
         const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(e.byte, text.size()));
         const auto line = static_cast<std::size_t>(1 + std::count(text.begin(), end, '\n'));
         fail_at(path, line, "not JSON; correct what stands here or just before");
-    }
+    } catch (const Json::exception&) { fail_at(path, 1, "a number is out of range; correct it"); }
 }
 
 }  // namespace
 
-SceneSheet read_scene_sheet(const std::filesystem::path& path) {
-    const Json json = parse(path);
+SceneSheet read_scene_sheet(const std::filesystem::path& path, const FileSource& files) {
+    const Json json = parse(path, files.read(path));
     const Place sheet{path, "", json};
     sheet.require_only(keys, notes);
     if (json.contains("up_axis") && sheet.at("up_axis").text() != "+Y") {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "io/file_source.hpp"
 #include "scene.hpp"
 
 namespace render {
@@ -26,7 +27,7 @@ struct SceneSheet {
 /// `up_axis`, if given, is "+Y". What people may note besides is not looked at: `name`, `title`, `author`, `license`,
 /// `source`, `units`, `triangles`, `vertices`, `materials`, `textures`, `bytes`, `bbox`, `lighting`,
 /// `punctual_lights`, `emissive`, `missing`, `notes`. throws: invalid_input for anything else, naming file and place.
-SceneSheet read_scene_sheet(const std::filesystem::path& path);
+SceneSheet read_scene_sheet(const std::filesystem::path& path, const FileSource& files = DiskFiles());
 
 /// The sheet beside a scene file, if there is one that is about this file. throws: as `read_scene_sheet`.
 std::optional<SceneSheet> sheet_beside(const std::filesystem::path& scene_file);

@@ -13,6 +13,7 @@
 #include <lightcuts/estimate/tree_sampling.hpp>
 #include <lightcuts/estimate/ward.hpp>
 
+#include "interrupt.hpp"
 #include "oracle.hpp"
 #include "scene_lights.hpp"
 #include "surface_material.hpp"
@@ -52,7 +53,7 @@ public:
         auto& own = static_cast<CutScratch&>(scratch);
         with_oracle(scene_, rays_, [&](const auto& oracle) {
             // Long streams of shadow rays against short-lived data: some 64 receivers at once are enough.
-            for (std::size_t begin = 0; begin < points.size(); begin += group) {
+            for (std::size_t begin = 0; begin < points.size() && !interrupted(); begin += group) {
                 const std::size_t count = std::min(group, points.size() - begin);
                 own.receivers.clear();
                 for (const SurfacePoint& p : points.subspan(begin, count)) own.receivers.push_back(receiver_of(p));
@@ -97,7 +98,7 @@ public:
     void shade(std::span<const SurfacePoint> points, std::span<Shading> out, Scratch& scratch) const override {
         auto& own = static_cast<LightScratch&>(scratch).lights;
         with_oracle(scene_, rays_, [&](const auto& oracle) {
-            for (std::size_t i = 0; i < points.size(); ++i) {
+            for (std::size_t i = 0; i < points.size() && !interrupted(); ++i) {
                 const Receiver receiver = receiver_of(points[i]);
                 const auto estimate = method_(lights_.forest(), receiver, oracle, own);
                 out[i] = {estimate.radiance, glm::vec3(0.0f),  estimate.clamp_threshold,

@@ -40,7 +40,8 @@ public:
 
     virtual std::unique_ptr<Scratch> make_scratch() const = 0;
 
-    /// Fills `out[i]` for `points[i]`. The result of a point does not depend on the others.
+    /// Fills `out[i]` for `points[i]`. The result of a point does not depend on the others. Once `interrupted()`, the
+    /// rest is given up.
     /// pre: points.size() == out.size(); `scratch` was made by this shader.
     virtual void shade(std::span<const SurfacePoint> points, std::span<Shading> out, Scratch& scratch) const = 0;
 

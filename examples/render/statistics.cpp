@@ -4,9 +4,10 @@
 #include <iomanip>
 #include <sstream>
 
-#include <sys/resource.h>
-
 #include <nlohmann/json.hpp>
+
+#include "escape.hpp"
+#include "memory.hpp"
 
 namespace render {
 
@@ -26,14 +27,17 @@ double as_written(float value) {
 }
 
 Json to_json(const glm::vec3& v) { return {as_written(v.x), as_written(v.y), as_written(v.z)}; }
+Json to_json(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
-Json path_or_null(const std::filesystem::path& path) { return path.empty() ? Json(nullptr) : Json(path.string()); }
+Json path_or_null(const std::filesystem::path& path) {
+    return path.empty() ? Json(nullptr) : Json(as_utf8(path.string()));
+}
 
 Json options_json(const RunReport& report) {
     const Options& o = report.options;
     Json json;
-    json["output"] = o.output.string();
-    json["camera"] = o.camera.empty() ? Json(nullptr) : Json(o.camera);
+    json["output"] = as_utf8(o.output.string());
+    json["camera"] = o.camera.empty() ? Json(nullptr) : Json(as_utf8(o.camera));
     json["eye"] = o.eye ? to_json(*o.eye) : Json(nullptr);
     json["target"] = o.target ? to_json(*o.target) : Json(nullptr);
     json["up"] = o.up ? to_json(*o.up) : Json(nullptr);
@@ -48,6 +52,7 @@ Json options_json(const RunReport& report) {
     json["builder"] = o.builder;
     json["lights"] = path_or_null(o.lights);
     json["area_points"] = o.area_points;
+    json["area_lights"] = o.area_lights ? Json(*o.area_lights) : Json(nullptr);
     json["env"] = path_or_null(o.env);
     json["env_lights"] = o.env_lights;
     json["env_scale"] = as_written(o.env_scale);
@@ -89,16 +94,6 @@ Json clamp_json(const RunReport& report) {
 
 }  // namespace
 
-std::uint64_t peak_memory() {
-    rusage usage{};
-    ::getrusage(RUSAGE_SELF, &usage);
-#ifdef __APPLE__
-    return static_cast<std::uint64_t>(usage.ru_maxrss);
-#else
-    return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024u;
-#endif
-}
-
 Json to_json(const ErrorFigures& figures) {
     Json json;
     json["relative_rmse"] = finite_or_null(figures.relative_rmse);
@@ -116,7 +111,7 @@ Json to_json(const RunReport& report) {
     const Scene& scene = report.scene;
     const RenderStatistics& s = report.statistics;
     Json json;
-    json["scene"] = o.scene;
+    json["scene"] = as_utf8(o.scene);
     json["method"] = o.method;
     json["size"] = {o.width, o.height};
     json["spp"] = o.spp;
@@ -124,6 +119,8 @@ Json to_json(const RunReport& report) {
     json["threads"] = report.threads;
     json["ray_tracer"] = {{"version", report.ray_tracer.version()}, {"isa", report.ray_tracer.isa()}};
     json["interrupted"] = report.interrupted;
+    json["picture"] = as_utf8(report.picture.string());
+    json["resumed_tiles"] = report.resumed_tiles;
     json["triangles"] = scene.triangles.size();
     const std::size_t of_file = scene.directional.size() - scene.environment_lights - scene.sun_lights -
                                 scene.sky_lights - scene.ground_lights;
@@ -148,10 +145,21 @@ Json to_json(const RunReport& report) {
     json["error_bound"] = {{"mean", finite_or_null(per(s.error_bound_sum, s.pixels))},
                            {"max", finite_or_null(s.largest_error_bound)}};
     json["clamp"] = clamp_json(report);
+    json["left_out"] = Json::array();
+    for (const LeftOut& item : scene.left_out)
+        json["left_out"].push_back({{"what", as_utf8(item.what)}, {"why", as_utf8(item.why)}});
     json["peak_memory_bytes"] = peak_memory();
     json["options"] = options_json(report);
     if (report.error) json["error"] = to_json(*report.error);
     return json;
+}
+
+std::string interruption(const RunReport& report) {
+    std::string text = "interrupted; what was finished is in " + escaped(report.picture.string());
+    if (report.picture != report.options.output) {
+        text += "; a finished picture has the name " + escaped(report.options.output.string());
+    }
+    return text;
 }
 
 std::string summary(const RunReport& report) {
@@ -159,18 +167,18 @@ std::string summary(const RunReport& report) {
     const RenderStatistics& s = report.statistics;
     std::ostringstream text;
     text << std::setprecision(3);
-    text << report.options.scene << ": " << scene.triangles.size() << " triangles, " << scene.light_count()
+    text << escaped(report.options.scene) << ": " << scene.triangles.size() << " triangles, " << scene.light_count()
          << " lights\n";
     text << report.options.method << ": " << report.seconds.load << " s loading, " << report.seconds.tree
          << " s trees, " << report.seconds.render << " s rendering, "
          << per(static_cast<double>(s.shadow_rays), s.pixels) << " shadow rays a pixel, cut size "
          << per(static_cast<double>(s.cut_nodes), s.points) << "\n";
+    if (report.resumed_tiles > 0) text << report.resumed_tiles << " tiles of these were there from an earlier run\n";
     if (report.error) {
         text << "relative RMSE " << 100.0 * report.error->relative_rmse << " %, 99.9th percentile "
              << 100.0 * report.error->p999_relative << " %\n";
     }
-    text << (report.interrupted ? "interrupted; what was finished is in " : "written: ")
-         << report.options.output.string() << "\n";
+    text << (report.interrupted ? interruption(report) : "written: " + escaped(report.picture.string())) << "\n";
     return text.str();
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -35,17 +37,19 @@ struct RunReport {
     RenderStatistics statistics;
     float adaptation = 0;
     bool interrupted = false;
+    std::size_t resumed_tiles = 0;  ///< of an earlier run
+    std::filesystem::path picture;  ///< where it is written
     std::optional<ErrorFigures> error;
 };
-
-/// Largest resident memory of the process so far, bytes.
-std::uint64_t peak_memory();
 
 /// The report with the stable keys of the command line's contract. Numbers that are not finite become null. The
 /// error bound of a pixel is that of its worst channel; `cut_size.at_limit` counts surface points.
 nlohmann::ordered_json to_json(const RunReport& report);
 
 nlohmann::ordered_json to_json(const ErrorFigures& figures);
+
+/// Where the part of an interrupted picture is, for people.
+std::string interruption(const RunReport& report);
 
 /// The report in a few lines for people.
 std::string summary(const RunReport& report);

@@ -59,7 +59,7 @@ EyeRaySeen SurfaceFinder::follow(const EyeRay& ray, std::uint32_t pixel, std::ui
             seen.emitted += at.weight * scene_.background.radiance(at.direction);
             continue;
         }
-        const SurfaceGeometry surface = surface_at(scene_, *hit, at.origin, at.direction);
+        const SurfaceGeometry surface = surface_at(scene_, *hit, at.direction);
         const Material& material = scene_.materials[scene_.triangle_material[hit->triangle]];
         const SurfaceColors colors = colors_at(scene_, hit->triangle, hit->u, hit->v);
         if (first) {
@@ -67,7 +67,7 @@ EyeRaySeen SurfaceFinder::follow(const EyeRay& ray, std::uint32_t pixel, std::ui
             seen.normal = surface.shading_normal;
         }
         const glm::vec3 weight = at.weight * colors.cover;
-        if (surface.front || material.double_sided) seen.emitted += weight * colors.emission;
+        seen.emitted += at.weight * emitted_radiance(scene_, hit->triangle, hit->u, hit->v, surface.front);
 
         const float distance = at.travelled + hit->distance;
         const SurfaceResponse response = response_of(material, colors, surface, at.direction, shade_);

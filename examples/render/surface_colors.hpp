@@ -10,26 +10,33 @@
 
 namespace render {
 
-/// A material's parameters at one point, textures applied.
+/// A material's parameters at one point: textures and vertex colours applied.
 struct SurfaceColors {
     glm::vec3 base{0.0f};
     float cover = 1;  ///< share of the point that is there at all: alpha MASK gives 0 or 1, BLEND alpha
     float metallic = 0;
     float roughness = 1;
+    glm::vec3 specular{0.0f};        ///< phong: Ks; else reflectance at normal incidence
+    float grazing = 1;               ///< reflectance at grazing incidence, at least `specular`; phong has none
     float transmission = 0;          ///< share of light that passes, to be tinted by `base`; 0 where metallic
     float diffuse_transmission = 0;  ///< of the rest's diffuse part: share that leaves on the other side
     glm::vec3 diffuse_transmission_color{0.0f};  ///< black where that is 0
-    glm::vec3 emission{0.0f};
 };
 
-/// Texture coordinates at barycentric (u, v) of `triangle`; (0, 0) in a scene without.
-glm::vec2 uv_at(const Scene& scene, std::uint32_t triangle, float u, float v);
+/// What `use` reads at barycentric (u, v) of `triangle`: (1, 1, 1, 1) without a texture, the texel of uv (0, 0) without
+/// texture coordinates.
+glm::vec4 texel_at(const Scene& scene, const TextureUse& use, std::uint32_t triangle, float u, float v);
 
 /// All of a material's parameters at barycentric (u, v) of `triangle`.
 SurfaceColors colors_at(const Scene& scene, std::uint32_t triangle, float u, float v);
 
-/// `colors_at(...).emission` alone.
-glm::vec3 emission_at(const Scene& scene, std::uint32_t triangle, float u, float v);
+/// Radiance that barycentric (u, v) of `triangle` emits towards those who see its `front`, from where its corners run
+/// counter-clockwise, or its back: what is seen of it, what lights by it, and what it shows in mirrors. Emission times
+/// its texture (and, of unlit materials, the vertex colour) times cover; 0 on a side that does not emit.
+glm::vec3 emitted_radiance(const Scene& scene, std::uint32_t triangle, float u, float v, bool front);
+
+/// True iff `emitted_radiance` varies over triangles of `material`.
+bool has_varying_emission(const Scene& scene, const Material& material);
 
 /// `colors_at(...).cover` alone.
 float cover_at(const Scene& scene, std::uint32_t triangle, float u, float v);

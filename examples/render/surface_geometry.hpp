@@ -12,7 +12,7 @@ struct SurfaceGeometry {
     glm::vec3 position{0.0f};
     glm::vec3 geometric_normal{0.0f};  ///< unit, towards the viewer
     glm::vec3 shading_normal{0.0f};    ///< unit, towards the viewer and above the surface
-    float offset = 0;                  ///< by which rays leave the surface, relative to the coordinates' size
+    float offset = 0;                  ///< by which rays leave the surface
     bool front = true;                 ///< the viewer sees the side from which the corners run counter-clockwise
 
     /// Where a ray of that direction leaves the surface.
@@ -23,8 +23,8 @@ struct SurfaceGeometry {
     glm::vec3 reflect(const glm::vec3& direction) const;
 };
 
-/// The surface at `hit` of a ray from `origin` along the unit `direction`. Vertex normals that face away from the
-/// viewer near silhouettes are bent until they do not.
-SurfaceGeometry surface_at(const Scene& scene, const Hit& hit, const glm::vec3& origin, const glm::vec3& direction);
+/// The surface at `hit` of a ray along the unit `direction`. The shading normal is that of the vertices, bent by the
+/// material's normal map; where it faces away from the viewer near silhouettes it is bent until it does not.
+SurfaceGeometry surface_at(const Scene& scene, const Hit& hit, const glm::vec3& direction);
 
 }  // namespace render

@@ -12,7 +12,6 @@ namespace {
 
 /// A metal smoother than this is a mirror; nothing reflects light of points more sharply.
 constexpr float mirror_roughness = 0.02f;
-constexpr float dielectric_reflectance = 0.04f;
 
 /// Reflectance of a dielectric for unpolarised light; `eta`: index before over index behind the surface.
 float fresnel(float cosine, float eta) {
@@ -39,17 +38,22 @@ struct Encounter {
     void meet() const {
         SurfaceLobes& lobes = response.lobes;
         switch (material.model) {
+            case Material::Model::unlit: break;
             case Material::Model::mirror: mirror(colors.cover * colors.base); break;
             case Material::Model::glass: meet_glass(); break;
             case Material::Model::phong:
                 lobes.diffuse = colors.base;
-                lobes.specular = material.specular;
+                lobes.specular = colors.specular;
                 lobes.shininess = material.exponent;
                 lobes.model = SurfaceLobes::Model::phong;
                 break;
-            case Material::Model::microfacet: meet_microfacets(lobes); break;
+            case Material::Model::microfacet: meet_microfacets(lobes, colors.metallic >= 1.0f); break;
+            case Material::Model::specular_glossiness: meet_microfacets(lobes, colors.base == glm::vec3(0.0f)); break;
         }
     }
+
+    /// Schlick's, between normal and grazing incidence.
+    glm::vec3 reflectance() const { return glm::mix(colors.specular, glm::vec3(colors.grazing), schlick(cosine())); }
 
     void meet_glass() const {
         const float eta = surface.front ? 1.0f / material.ior : material.ior;
@@ -61,24 +65,24 @@ struct Encounter {
         response.go_on({glm::normalize(refracted), colors.cover * (1.0f - reflected) * colors.base, false});
     }
 
-    void meet_microfacets(SurfaceLobes& lobes) const {
-        const glm::vec3 facing = glm::mix(glm::vec3(dielectric_reflectance), colors.base, colors.metallic);
+    void meet_microfacets(SurfaceLobes& lobes, bool is_metal) const {
         const bool smooth = colors.roughness < mirror_roughness;
-        if (smooth && colors.metallic >= 1.0f) {
-            mirror(colors.cover * glm::mix(facing, glm::vec3(1.0f), schlick(cosine())));
+        if (smooth && is_metal) {
+            mirror(colors.cover * reflectance());
             return;
         }
         if (colors.transmission > 0.0f) {
             // A thin pane: light goes straight on, and a smooth one also mirrors.
-            const float reflected = glm::mix(dielectric_reflectance, 1.0f, schlick(cosine())) * colors.transmission;
+            const glm::vec3 reflected = reflectance() * colors.transmission;
             pass(colors.cover * (colors.transmission - reflected) * colors.base);
-            if (smooth) mirror(glm::vec3(colors.cover * reflected));
+            if (smooth) mirror(colors.cover * reflected);
         }
         const float diffuse = (1.0f - colors.metallic) * (1.0f - colors.transmission);
         lobes.diffuse = colors.base * (diffuse * (1.0f - colors.diffuse_transmission));
         lobes.transmitted = colors.diffuse_transmission_color * (diffuse * colors.diffuse_transmission);
         const bool mirrors_instead = smooth && colors.transmission > 0.0f;
-        if (!mirrors_instead) lobes.specular = facing;
+        if (!mirrors_instead) lobes.specular = colors.specular;
+        lobes.grazing = colors.grazing;
         const float roughness = std::max(colors.roughness, mirror_roughness);
         lobes.shininess = roughness * roughness;
         lobes.model = SurfaceLobes::Model::microfacet;
@@ -100,7 +104,7 @@ SurfaceResponse response_of(const Material& material, const SurfaceColors& color
     if (colors.cover < 1.0f) encounter.pass(glm::vec3(1.0f - colors.cover));
     if (shade == Shade::full) {
         encounter.meet();
-    } else {
+    } else if (material.model != Material::Model::unlit) {
         response.lobes.diffuse = colors.base;
     }
     if (response.lobes.specular == glm::vec3(0.0f)) response.lobes.model = SurfaceLobes::Model::lambert;

@@ -18,12 +18,13 @@ enum class Shade { full, diffuse };  ///< `diffuse`: everything is Lambert with 
 /// How a surface spreads light.
 struct SurfaceLobes {
     /// The reflecting lobe besides Lambert's diffuse/pi. `phong`: specular (e+2)/(2 pi) cos^e about the mirror
-    /// direction. `microfacet`: height-correlated GGX with Schlick's Fresnel term.
+    /// direction. `microfacet`: height-correlated GGX with Schlick's Fresnel term from `specular` to `grazing`.
     enum class Model : std::uint8_t { lambert, phong, microfacet };
 
     glm::vec3 diffuse{0.0f};      ///< albedo of the Lambert part
     glm::vec3 specular{0.0f};     ///< phong: Ks; microfacet: reflectance at normal incidence (F0)
     glm::vec3 transmitted{0.0f};  ///< diffuse transmittance, of light from behind to the viewer
+    float grazing = 1;            ///< microfacet: reflectance at grazing incidence, at least `specular`
     float shininess = 0;          ///< phong: exponent e; microfacet: alpha = roughness^2
     Model model = Model::lambert;
 
@@ -54,7 +55,7 @@ private:
     std::size_t count_ = 0;
 };
 
-/// Reflectance of a dielectric for unpolarised light by Schlick's formula is f0 + (1 - f0) of this.
+/// Reflectance by Schlick's formula is f0 + (f90 - f0) of this.
 float schlick(float cosine);
 
 /// The response of `material` with `colors` at `surface` to a ray along the unit `direction`.

@@ -23,7 +23,7 @@ public:
         if (p.model == SurfacePoint::Model::phong) {
             gloss_.emplace<lightcuts::ModifiedPhong<>>(p.shading_normal, p.to_viewer, p.specular, p.shininess);
         } else if (p.model == SurfacePoint::Model::microfacet) {
-            gloss_.emplace<lightcuts::Ggx<>>(p.shading_normal, p.to_viewer, p.specular, p.shininess);
+            gloss_.emplace<lightcuts::Ggx<>>(p.shading_normal, p.to_viewer, p.specular, p.shininess, p.grazing);
         }
     }
 

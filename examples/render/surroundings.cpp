@@ -1,23 +1,18 @@
 #include "surroundings.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <cstring>
 #include <initializer_list>
-#include <memory>
 #include <numbers>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
-#include <stb_image.h>
 #include <lightcuts/core/invalid_input.hpp>
 #include <lightcuts/source/environment.hpp>
 #include <lightcuts/source/sun_sky.hpp>
 
-#include "text_file.hpp"
+#include "io/map_picture.hpp"
 
 namespace render {
 
@@ -27,35 +22,6 @@ using lightcuts::invalid_input;
 
 constexpr std::size_t sun_disc_lights = 64;
 constexpr std::uint32_t sky_rows = 256;
-
-/// Bytes of a file, which remember whether more were wanted than there are: stb_image reads zeros then.
-struct Bytes {
-    std::string_view left;
-    bool ran_out = false;
-
-    static int read(void* self, char* to, int wanted) {
-        Bytes& bytes = *static_cast<Bytes*>(self);
-        const std::size_t count = std::min(bytes.left.size(), static_cast<std::size_t>(wanted));
-        bytes.ran_out = bytes.ran_out || bytes.left.empty();
-        std::memcpy(to, bytes.left.data(), count);
-        bytes.left.remove_prefix(count);
-        return static_cast<int>(count);
-    }
-    static void skip(void* self, int count) {
-        Bytes& bytes = *static_cast<Bytes*>(self);
-        bytes.left.remove_prefix(std::min(bytes.left.size(), static_cast<std::size_t>(std::max(count, 0))));
-    }
-    static int is_at_end(void* self) { return static_cast<Bytes*>(self)->left.empty() ? 1 : 0; }
-};
-
-Picture read_map(const std::filesystem::path& path) {
-    std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    if (extension == ".hdr") return read_hdr(path);
-    if (extension == ".exr") return read_exr(path);
-    throw invalid_input(path.string() + ": not a kind of map that can be read; give an .exr or .hdr file");
-}
 
 /// `name`: of the map, for messages.
 void add_environment(Scene& scene, Picture map, const std::string& name, const Options& options) {
@@ -118,25 +84,6 @@ void refuse_idle_clamp(const Options& options) {
 }
 
 }  // namespace
-
-Picture read_hdr(const std::filesystem::path& path) {
-    const std::string file = read_file(path);
-    const auto fail = [&](const std::string& problem) {
-        throw invalid_input(path.string() + ": not a Radiance picture that can be read (" + problem +
-                            "); save it again as .hdr or .exr");
-    };
-    if (!file.starts_with("#?RADIANCE\n") && !file.starts_with("#?RGBE\n")) fail("it begins like none");
-    Bytes bytes{file};
-    const stbi_io_callbacks callbacks{&Bytes::read, &Bytes::skip, &Bytes::is_at_end};
-    int width = 0, height = 0, channels = 0;
-    const std::unique_ptr<float, void (*)(void*)> pixels(
-        stbi_loadf_from_callbacks(&callbacks, &bytes, &width, &height, &channels, 3), stbi_image_free);
-    if (!pixels) fail(stbi_failure_reason());
-    if (bytes.ran_out) fail("it is cut short");
-    Picture picture(width, height);
-    std::memcpy(picture.pixels.data(), pixels.get(), picture.size() * sizeof(glm::vec3));
-    return picture;
-}
 
 void add_surroundings(Scene& scene, Options& options) {
     Lighting own = std::move(scene.lighting);

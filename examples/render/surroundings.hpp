@@ -1,18 +1,12 @@
 #pragma once
 
-#include <filesystem>
-
 #include "options.hpp"
-#include "picture.hpp"
 #include "scene.hpp"
 
 namespace render {
 
-/// Reads a Radiance picture (.hdr). throws: invalid_input with the path when it is missing, damaged or cut short.
-Picture read_hdr(const std::filesystem::path& path);
-
-/// Puts around `scene` what `options` name, a map (.exr, .hdr) or sun and sky, or else what `scene.lighting` does, and
-/// sets those of the options that have not been given to what was used.
+/// Puts around `scene` what `options` name, a map (OpenEXR, Radiance) or sun and sky, or else what `scene.lighting`
+/// does, and sets those of the options that have not been given to what was used.
 ///
 /// A latitude-longitude map becomes background, and distant lights of equal power. Preetham's sun and clear sky become
 /// background, 64 distant lights for the sun's disc, and others of equal power for the sky and for the ground below the

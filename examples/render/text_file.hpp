@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -8,7 +9,11 @@
 
 namespace render {
 
-/// The whole file. throws: invalid_input when it is missing, a directory, or unreadable.
+/// With which some programs begin a text in UTF-8.
+inline constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+
+/// The whole file, or up to a gigabyte of a pipe. throws: invalid_input when it is missing, a directory, a device,
+/// unreadable, or larger than memory.
 std::string read_file(const std::filesystem::path& path);
 
 /// Throws invalid_input with "file:line: text".
@@ -23,13 +28,15 @@ std::string_view trim(std::string_view text);
 /// The parts of `text` between spaces and tabs.
 std::vector<std::string_view> split_words(std::string_view text);
 
+/// Takes the first line off `rest`, without its end: LF, CR LF or CR.
+std::string_view take_line(std::string_view& rest);
+
 /// Calls `visit(line number from 1, line)` for each line.
 template <class Visit>
 void for_each_line(std::string_view text, Visit&& visit) {
     for (std::size_t line = 1; !text.empty(); ++line) {
-        const std::size_t end = text.find('\n');
-        visit(line, text.substr(0, end));
-        text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+        const std::string_view content = take_line(text);
+        visit(line, content);
     }
 }
 

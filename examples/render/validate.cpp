@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 #include <lightcuts/core/invalid_input.hpp>
@@ -37,14 +38,23 @@ struct Checker {
     }
 
     void sizes() const {
-        if (scene.triangles.empty()) fail("the scene has no triangles; there is nothing to render");
+        if (scene.triangles.empty()) {
+            std::string why = "the scene has no triangles; there is nothing to render";
+            for (const LeftOut& item : scene.left_out) why += "; left out: " + item.what;
+            fail(why);
+        }
         if (scene.triangle_material.size() != scene.triangles.size()) fail("not one material index per triangle");
         if (!scene.normals.empty() && scene.normals.size() != scene.positions.size()) {
             fail("not one normal per vertex; give all vertices a normal or none");
         }
-        if (!scene.uvs.empty() && scene.uvs.size() != scene.positions.size()) {
-            fail("not one uv per vertex; give all vertices a uv or none");
+        for (const auto& uvs : scene.uv_sets) {
+            if (!uvs.empty() && uvs.size() != scene.positions.size()) {
+                fail("not one uv per vertex; give all vertices a uv or none");
+            }
         }
+        const bool colored = scene.colors.empty() || scene.colors.size() == scene.positions.size();
+        const bool tangent = scene.tangents.empty() || scene.tangents.size() == scene.positions.size();
+        if (!colored || !tangent) fail("not one colour or tangent per vertex; give all vertices one or none");
     }
 
     void vertices() const {
@@ -59,9 +69,22 @@ struct Checker {
                 fail("the normal of vertex " + std::to_string(i) + " is not finite; correct or remove the normals");
             }
         }
-        for (std::size_t i = 0; i < scene.uvs.size(); ++i) {
-            if (!is_finite(glm::vec3(scene.uvs[i], 0.0f))) {
-                fail("the uv of vertex " + std::to_string(i) + " is not finite; correct or remove the uvs");
+        for (const auto& uvs : scene.uv_sets) {
+            for (std::size_t i = 0; i < uvs.size(); ++i) {
+                if (!is_finite(glm::vec3(uvs[i], 0.0f))) {
+                    fail("the uv of vertex " + std::to_string(i) + " is not finite; correct or remove the uvs");
+                }
+            }
+        }
+        for (std::size_t i = 0; i < scene.tangents.size(); ++i) {
+            if (!is_finite(glm::vec3(scene.tangents[i]))) {
+                fail("the tangent of vertex " + std::to_string(i) + " is not finite; correct or remove the tangents");
+            }
+        }
+        for (std::size_t i = 0; i < scene.colors.size(); ++i) {
+            const glm::vec4& color = scene.colors[i];
+            if (!is_finite_and_not_negative(glm::vec3(color)) || !(color.a >= 0.0f) || !std::isfinite(color.a)) {
+                fail("the colour of vertex " + std::to_string(i) + " is negative or not finite; correct it");
             }
         }
         for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
@@ -96,15 +119,16 @@ struct Checker {
             require(within(m.base_alpha, 0.0f, 1.0f), "alpha");
             require(std::isfinite(m.alpha_cutoff), "the alpha cutoff");
             require(within(m.exponent, 0.0f, 1e9f), "the specular exponent");
-            require(within(m.ior, 0.1f, 100.0f), "the index of refraction");
-            for (const UvTransform& t : {m.base_color_uv, m.metallic_roughness_uv, m.emission_uv,
-                                         m.diffuse_transmission_uv, m.diffuse_transmission_color_uv}) {
+            const bool is_infinite_ior = m.model == Material::Model::microfacet && m.ior == 0.0f;
+            require(is_infinite_ior || within(m.ior, 0.1f, 100.0f), "the index of refraction");
+            require(is_finite_and_not_negative(m.specular_tint), "the specular colour");
+            require(within(m.specular_weight, 0.0f, 1.0f), "the specular factor");
+            require(std::isfinite(m.normal_scale), "the scale of the normal map");
+            for (const TextureUse* use : textures_of(m)) {
+                const UvTransform& t = use->uv;
                 require(is_finite(glm::vec3(t.offset + t.u_axis + t.v_axis, 0.0f)), "a texture transform");
-            }
-            for (const int index :
-                 {m.base_color_texture, m.metallic_roughness_texture, m.emission_texture, m.alpha_texture,
-                  m.diffuse_transmission_texture, m.diffuse_transmission_color_texture}) {
-                if (index != no_texture && (index < 0 || static_cast<std::size_t>(index) >= scene.textures.size())) {
+                if (use->is_there() &&
+                    (use->texture < 0 || static_cast<std::size_t>(use->texture) >= scene.textures.size())) {
                     fail("material '" + m.name + "' has a texture that is not there; add it");
                 }
             }
@@ -175,6 +199,30 @@ void drop_flat_triangles(Scene& scene) {
     scene.triangle_material.resize(kept);
 }
 
+/// A surface reflects no more than it gets: what is above is cut off, and named.
+void clip_reflectances(Scene& scene) {
+    const glm::vec3 one(1.0f);
+    const std::string why = "a surface reflects no more than it gets";
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        Material& m = scene.materials[i];
+        for (glm::vec3* color : {&m.base_color, &m.specular, &m.diffuse_transmission_color}) {
+            if (glm::max(*color, one) == one) continue;
+            leave_out(scene.left_out,
+                      "what is above 1 of a colour " + text(*color) + " of material " + std::to_string(i) + " '" +
+                          m.name + "'",
+                      why);
+            *color = glm::min(*color, one);
+        }
+    }
+    for (std::size_t i = 0; i < scene.colors.size(); ++i) {
+        if (glm::max(scene.colors[i], glm::vec4(1.0f)) == glm::vec4(1.0f)) continue;
+        leave_out(scene.left_out, "what is above 1 of vertex colours, such as that of vertex " + std::to_string(i),
+                  why);
+        for (glm::vec4& color : scene.colors) color = glm::min(color, glm::vec4(1.0f));
+        break;
+    }
+}
+
 template <class L>
 std::size_t drop_dark(std::vector<L>& lights) {
     return std::erase_if(lights, [](const L& light) { return light.intensity == glm::vec3(0.0f); });
@@ -198,6 +246,7 @@ void validate(Scene& scene) {
     }
 
     drop_flat_triangles(scene);
+    clip_reflectances(scene);
     scene.dropped_lights += drop_dark(scene.omni) + drop_dark(scene.oriented) + drop_dark(scene.spots) +
                             drop_dark(scene.directional) + drop_dark(scene.spheres);
 }

@@ -13,10 +13,24 @@ namespace render {
 namespace {
 
 /// sin of the angle between view and up below which the picture's upright is not defined.
-constexpr float smallest_sine = 1e-4f;
+constexpr double smallest_sine = 1e-4;
 
-float sine_between(const glm::vec3& a, const glm::vec3& b) {
+/// Lengths whose squares floats can hold: what is done with rays is done in floats.
+constexpr double shortest = 1e-18;
+constexpr double longest = 1e18;
+
+bool is_usable_length(double length) { return length >= shortest && length <= longest; }
+
+double sine_between(const glm::dvec3& a, const glm::dvec3& b) {
     return glm::length(glm::cross(glm::normalize(a), glm::normalize(b)));
+}
+
+bool is_finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+std::string short_text(double value) {
+    std::ostringstream text;
+    text << value;
+    return text.str();
 }
 
 }  // namespace
@@ -31,37 +45,57 @@ glm::vec2 pixel_offset(std::uint64_t seed, std::uint32_t pixel, int sample, int 
     return {static_cast<float>(x - std::floor(x)), static_cast<float>(y - std::floor(y))};
 }
 
-View::View(const Camera& camera, int width, int height) : width_(width), height_(height), eye_(camera.eye) {
-    const glm::vec3 forward = glm::normalize(camera.target - camera.eye);
-    const glm::vec3 right = glm::normalize(glm::cross(forward, camera.up));
-    const glm::vec3 up = glm::cross(right, forward);
-    const float pixel = 2.0f * std::tan(0.5f * glm::radians(camera.vertical_fov)) / static_cast<float>(height);
-    right_ = pixel * right;
-    down_ = -pixel * up;
-    corner_ = forward - 0.5f * (static_cast<float>(width) * right_ + static_cast<float>(height) * down_);
+View::View(const Camera& camera, const glm::dvec3& origin, int width, int height)
+    : width_(width), height_(height), eye_(camera.eye - origin), is_orthographic_(camera.height > 0.0) {
+    const glm::dvec3 forward = glm::normalize(camera.target - camera.eye);
+    const glm::dvec3 right = glm::normalize(glm::cross(forward, glm::dvec3(camera.up)));
+    const glm::dvec3 up = glm::cross(right, forward);
+    const double view_height = is_orthographic_
+                                   ? camera.height
+                                   : 2.0 * std::tan(0.5 * glm::radians(static_cast<double>(camera.vertical_fov)));
+    const double pixel = view_height / height;
+    const glm::dvec3 to_corner = -0.5 * pixel * (static_cast<double>(width) * right - static_cast<double>(height) * up);
+    forward_ = glm::vec3(forward);
+    right_ = glm::vec3(pixel * right);
+    down_ = glm::vec3(-pixel * up);
+    corner_ = glm::vec3(is_orthographic_ ? to_corner : forward + to_corner);
 }
 
-EyeRay View::ray(float x, float y) const { return {eye_, glm::normalize(corner_ + x * right_ + y * down_)}; }
+EyeRay View::ray(float x, float y) const {
+    const glm::vec3 on_plane = corner_ + x * right_ + y * down_;
+    if (is_orthographic_) return {eye_ + on_plane, forward_};
+    return {eye_, glm::normalize(on_plane)};
+}
 
 void require_usable(const Camera& camera, const std::string& where) {
     const auto require = [&](bool good, const char* problem) {
         if (!good) throw lightcuts::invalid_input(where + ": " + problem);
     };
-    using lightcuts::is_finite;
-    require(is_finite(camera.eye) && is_finite(camera.target) && is_finite(camera.up),
+    require(is_finite(camera.eye) && is_finite(camera.target) && lightcuts::is_finite(camera.up),
             "a coordinate is not finite; give --eye and --target");
     require(camera.target != camera.eye, "the target is at the eye; give --eye and --target");
-    require(camera.up != glm::vec3(0.0f) && sine_between(camera.target - camera.eye, camera.up) > smallest_sine,
+    const glm::dvec3 forward = camera.target - camera.eye;
+    const double distance = glm::length(forward);
+    const double upright = glm::length(glm::dvec3(camera.up));
+    const std::string range = "between " + short_text(shortest) + " and " + short_text(longest);
+    require(is_usable_length(distance), "the target is " + short_text(distance) + " from the eye, and has to be " +
+                                            range + "; give another --eye or --target");
+    require(glm::length(camera.eye) <= longest, "the eye is " + short_text(glm::length(camera.eye)) +
+                                                    " from the origin, and has to be at most " + short_text(longest) +
+                                                    "; give another --eye");
+    require(upright == 0.0 || is_usable_length(upright),
+            "the up vector's length is " + short_text(upright) + ", and has to be " + range + "; give another --up");
+    require(upright > 0.0 && sine_between(forward, glm::dvec3(camera.up)) > smallest_sine,
             "the up vector does not cross the view; give another --up");
-    require(camera.vertical_fov > 0.0f && camera.vertical_fov < 180.0f,
+    require(camera.height > 0.0 || (camera.vertical_fov > 0.0f && camera.vertical_fov < 180.0f),
             "the field of view is not between 0 and 180 degrees; give --fov");
 }
 
-glm::vec3 default_up(const glm::vec3& eye, const glm::vec3& target) {
-    const glm::vec3 up(0.0f, 1.0f, 0.0f);
-    const glm::vec3 view = target - eye;
-    const bool vertical = glm::length(view) > 0.0f && sine_between(view, up) < smallest_sine;
-    return vertical ? glm::vec3(0.0f, 0.0f, -1.0f) : up;
+glm::vec3 default_up(const glm::dvec3& eye, const glm::dvec3& target) {
+    const glm::dvec3 up(0.0, 1.0, 0.0);
+    const glm::dvec3 view = target - eye;
+    const bool vertical = glm::length(view) > 0.0 && sine_between(view, up) < smallest_sine;
+    return vertical ? glm::vec3(0.0f, 0.0f, -1.0f) : glm::vec3(up);
 }
 
 }  // namespace render

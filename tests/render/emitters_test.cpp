@@ -79,7 +79,7 @@ TEST(EmissiveSurfaces, NegativeZeroIsZero) {
 TEST(EmitterLights, PowerIsRadianceTimesArea) {
     for (const std::size_t count : {1u, 7u, 64u, 1000u}) {
         Scene s = rectangle(3, 1);
-        add_emitter_lights(s, count);
+        add_emitter_lights(s, {.points = count});
         ASSERT_EQ(s.oriented.size(), count);
         for (const auto& light : s.oriented) {
             EXPECT_NEAR(light.intensity.x, 2.0f * 6.0f / static_cast<float>(count), 1e-5f);
@@ -91,10 +91,10 @@ TEST(EmitterLights, PowerIsRadianceTimesArea) {
 
 TEST(EmitterLights, TessellationOfAFlatSurfaceChangesNothing) {
     Scene coarse = rectangle(1, 1);
-    add_emitter_lights(coarse, 64);
+    add_emitter_lights(coarse, {.points = 64});
     for (const auto& [u, v] : {std::array{2, 5}, std::array{16, 16}, std::array{1, 40}}) {
         Scene fine = rectangle(u, v);
-        add_emitter_lights(fine, 64);
+        add_emitter_lights(fine, {.points = 64});
         ASSERT_EQ(fine.oriented.size(), 64u);
         for (std::size_t i = 0; i < 64; ++i) {
             EXPECT_LE(glm::length(fine.oriented[i].position - coarse.oriented[i].position), 1e-4f) << i;
@@ -107,19 +107,19 @@ TEST(EmitterLights, NotOfWhatIsOnlySeen) {
     Scene s = rectangle(2, 2);
     s.materials[0].only_seen = true;
     EXPECT_TRUE(emissive_surfaces(s).empty());
-    add_emitter_lights(s, 64);
+    add_emitter_lights(s, {.points = 64});
     EXPECT_TRUE(s.oriented.empty());
 }
 
 TEST(EmitterLights, OneLightLiesInTheMiddle) {
     Scene s = rectangle(4, 4);
-    add_emitter_lights(s, 1);
+    add_emitter_lights(s, {.points = 1});
     EXPECT_LE(glm::length(s.oriented[0].position - glm::vec3(2.2f, 2.9f, 4.0f)), 1e-3f);
 }
 
 TEST(EmitterLights, LieSlightlyOffTheSurface) {
     Scene s = rectangle(1, 1);
-    add_emitter_lights(s, 50);
+    add_emitter_lights(s, {.points = 50});
     for (const auto& light : s.oriented) {
         const float height = glm::dot(light.position - glm::vec3(1, 2, 3), light.axis);
         EXPECT_GT(height, 1e-6f);
@@ -130,7 +130,7 @@ TEST(EmitterLights, LieSlightlyOffTheSurface) {
 TEST(EmitterLights, DoubleSidedEmitsOnBothSides) {
     Scene s = empty_scene(true);
     Modeller(s).quad({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
-    add_emitter_lights(s, 10);
+    add_emitter_lights(s, {.points = 10});
     ASSERT_EQ(s.oriented.size(), 20u);
     EXPECT_EQ(std::count_if(s.oriented.begin(), s.oriented.end(), [](const auto& l) { return l.axis.z > 0.5f; }), 10);
     EXPECT_NEAR(total_intensity(s).x, 4.0, 1e-5);
@@ -139,9 +139,10 @@ TEST(EmitterLights, DoubleSidedEmitsOnBothSides) {
 
 TEST(EmitterLights, NoneWanted) {
     Scene s = rectangle(1, 1);
-    add_emitter_lights(s, 0);
+    add_emitter_lights(s, {.points = 0});
     EXPECT_TRUE(s.oriented.empty());
-    EXPECT_THAT(refusal([&] { add_emitter_lights(s, std::size_t{1} << 40); }), testing::HasSubstr("--area-points"));
+    EXPECT_THAT(refusal([&] { add_emitter_lights(s, {.points = std::size_t{1} << 40}); }),
+                testing::HasSubstr("--area-points"));
 }
 
 /// Largest difference between the share of points and the share of area of a box from the rectangle's corner.
@@ -165,7 +166,7 @@ double discrepancy(const Scene& s, std::size_t count) {
 TEST(EmitterLights, SpreadEvenly) {
     for (const std::size_t count : {16u, 64u, 256u, 1024u}) {
         Scene s = rectangle(5, 3);
-        add_emitter_lights(s, count);
+        add_emitter_lights(s, {.points = count});
         // Independent points would give about 0.8 / sqrt(count).
         EXPECT_LE(discrepancy(s, count), 1.7 / std::pow(static_cast<double>(count), 0.8)) << count;
     }
@@ -178,7 +179,7 @@ TEST(EmitterLights, FollowTheOutline) {
     m.quad({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 3, 3);
     m.quad({1, 0, 0}, {1, 0, 0}, {0, 1, 0});
     m.quad({0, 1, 0}, {1, 0, 0}, {0, 1, 0});
-    add_emitter_lights(s, 300);
+    add_emitter_lights(s, {.points = 300});
     std::array<int, 4> in{};
     for (const auto& light : s.oriented) {
         ++in[static_cast<std::size_t>((light.position.x > 1.0f ? 1 : 0) + (light.position.y > 1.0f ? 2 : 0))];
@@ -193,7 +194,7 @@ TEST(EmitterLights, CurvedSurfacesGetEqualShares) {
         Scene s = empty_scene();
         Modeller(s).sphere({0, 0, 0}, 1.0f, segments);
         ASSERT_EQ(emissive_surfaces(s).size(), 1u);
-        add_emitter_lights(s, 800);
+        add_emitter_lights(s, {.points = 800});
         std::array<int, 8> in{};
         glm::vec3 mean(0.0f);
         for (const auto& light : s.oriented) {
@@ -211,7 +212,7 @@ TEST(EmitterLights, TextureDistributesThem) {
     // The left half is three times as bright as the right one, and of another colour.
     Scene s = empty_scene();
     s.materials[0].emission = glm::vec3(1.0f);
-    s.materials[0].emission_texture = 0;
+    s.materials[0].emission_texture.texture = 0;
     render::Texture texture;
     texture.width = 64;
     texture.height = 1;
@@ -219,8 +220,9 @@ TEST(EmitterLights, TextureDistributesThem) {
     texture.wrap_u = render::Texture::Wrap::clamp;
     s.textures.push_back(texture);
     Modeller(s).quad({0, 0, 0}, {2, 0, 0}, {0, 1, 0});
-    for (const glm::vec3& p : s.positions) s.uvs.emplace_back(0.5f * p.x, p.y);
-    add_emitter_lights(s, 400);
+    s.uv_sets.resize(1);
+    for (const glm::vec3& p : s.positions) s.uv_sets[0].emplace_back(0.5f * p.x, p.y);
+    add_emitter_lights(s, {.points = 400});
     ASSERT_EQ(s.oriented.size(), 400u);
     int left = 0;
     for (const auto& light : s.oriented) {
@@ -233,15 +235,15 @@ TEST(EmitterLights, TextureDistributesThem) {
 
     s.textures[0].texels.assign(64, glm::vec4(0, 0, 0, 1));
     s.oriented.clear();
-    add_emitter_lights(s, 400);
+    add_emitter_lights(s, {.points = 400});
     EXPECT_TRUE(s.oriented.empty());
 }
 
 TEST(EmitterLights, GoWhereTheTextureTransformSays) {
     Scene s = empty_scene();
     s.materials[0].emission = glm::vec3(1.0f);
-    s.materials[0].emission_texture = 0;
-    s.materials[0].emission_uv = {{1.0f, 0.0f}, {-1.0f, 0.0f}, {0.0f, 1.0f}};  // mirrored
+    s.materials[0].emission_texture.texture = 0;
+    s.materials[0].emission_texture.uv = {{1.0f, 0.0f}, {-1.0f, 0.0f}, {0.0f, 1.0f}};  // mirrored
     render::Texture texture;
     texture.width = 64;
     texture.height = 1;
@@ -249,8 +251,9 @@ TEST(EmitterLights, GoWhereTheTextureTransformSays) {
     texture.wrap_u = render::Texture::Wrap::clamp;
     s.textures.push_back(texture);
     Modeller(s).quad({0, 0, 0}, {2, 0, 0}, {0, 1, 0});
-    for (const glm::vec3& p : s.positions) s.uvs.emplace_back(0.5f * p.x, p.y);
-    add_emitter_lights(s, 100);
+    s.uv_sets.resize(1);
+    for (const glm::vec3& p : s.positions) s.uv_sets[0].emplace_back(0.5f * p.x, p.y);
+    add_emitter_lights(s, {.points = 100});
     ASSERT_EQ(s.oriented.size(), 100u);
     for (const auto& light : s.oriented) EXPECT_GT(light.position.x, 0.98f);
 }

@@ -68,7 +68,7 @@ TEST_F(LeafFile, LitFromBehindIsTransmittanceOverPiTimesIrradiance) {
 TEST(Leaf, ReflectsWhatItDoesNotTransmitByItsTextures) {
     Scene scene;
     scene.positions = {{-1, 0, -1}, {-1, 0, 3}, {3, 0, -1}};
-    scene.uvs.assign(3, glm::vec2(0.5f));
+    scene.uv_sets = {std::vector<glm::vec2>(3, glm::vec2(0.5f))};
     scene.triangles = {{0, 1, 2}};
     scene.triangle_material = {0};
     scene.textures.resize(2);
@@ -77,9 +77,9 @@ TEST(Leaf, ReflectsWhatItDoesNotTransmitByItsTextures) {
     Material leaf;
     leaf.base_color = glm::vec3(0.8f);
     leaf.diffuse_transmission = 0.5f;
-    leaf.diffuse_transmission_texture = 0;
+    leaf.diffuse_transmission_texture.texture = 0;
     leaf.diffuse_transmission_color = glm::vec3(0.4f);
-    leaf.diffuse_transmission_color_texture = 1;
+    leaf.diffuse_transmission_color_texture.texture = 1;
     leaf.metallic = 0.5f;
     scene.materials = {leaf};
     const RayScene rays(scene);

@@ -9,7 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
-#include <render/load_gltf.hpp>
+#include <render/io/load_gltf.hpp>
 #include <render/load_scene.hpp>
 #include <render/texture.hpp>
 
@@ -101,8 +101,7 @@ TEST_F(GltfFile, InstancesWithTransforms) {
     expect_near(face_normal(s, 1), {0, 0, 1});
     ASSERT_EQ(s.normals.size(), 6u);
     expect_near(s.normals[0], {0, 0, 1});
-    ASSERT_EQ(s.uvs.size(), 6u);
-    EXPECT_EQ(s.uvs[1], glm::vec2(1, 0));
+    EXPECT_TRUE(s.uv_sets.empty()) << "no texture asks for them";
 }
 
 TEST_F(GltfFile, NormalsUnderUnevenScale) {
@@ -130,11 +129,13 @@ TEST_F(GltfFile, Cameras) {
         {"name":"door","camera":0,"translation":[1,2,3],"rotation":[0,0.70710678,0,0.70710678]},{"camera":1}],
         "cameras":[{"type":"perspective","perspective":{"yfov":0.5235988,"znear":0.1}},
         {"type":"orthographic","orthographic":{"xmag":1,"ymag":1,"znear":0.1,"zfar":9}}])");
-    ASSERT_EQ(s.cameras.size(), 1u);
+    ASSERT_EQ(s.cameras.size(), 2u);
+    EXPECT_EQ(s.cameras[1].height, 2.0);
+    EXPECT_EQ(s.cameras[0].height, 0.0);
     EXPECT_EQ(s.cameras[0].name, "door");
     EXPECT_NEAR(s.cameras[0].vertical_fov, 30.0f, 1e-4f);
-    expect_near(s.cameras[0].eye, {1, 2, 3});
-    expect_near(glm::normalize(s.cameras[0].target - s.cameras[0].eye), {-1, 0, 0}, 1e-5f);
+    expect_near(glm::vec3(s.cameras[0].eye), {1, 2, 3});
+    expect_near(glm::vec3(glm::normalize(s.cameras[0].target - s.cameras[0].eye)), {-1, 0, 0}, 1e-5f);
     expect_near(s.cameras[0].up, {0, 1, 0});
 }
 
@@ -203,8 +204,8 @@ TEST_F(GltfFile, Materials) {
 
     // The same image once as sRGB colour, once as plain numbers.
     ASSERT_EQ(s.textures.size(), 2u);
-    const auto& color = s.textures[static_cast<std::size_t>(m.base_color_texture)];
-    const auto& data = s.textures[static_cast<std::size_t>(m.metallic_roughness_texture)];
+    const auto& color = s.textures[static_cast<std::size_t>(m.base_color_texture.texture)];
+    const auto& data = s.textures[static_cast<std::size_t>(m.metallic_roughness_texture.texture)];
     EXPECT_EQ(color.wrap_u, render::Texture::Wrap::clamp);
     EXPECT_EQ(color.wrap_v, render::Texture::Wrap::mirror);
     EXPECT_NEAR(color.texels[0].r, 0.5029f, 1e-4f);
@@ -228,15 +229,16 @@ TEST_F(GltfFile, DiffuseTransmission) {
     EXPECT_FLOAT_EQ(m.diffuse_transmission, 0.4f);
     expect_near(m.diffuse_transmission_color, {0.1f, 0.8f, 0.2f});
     ASSERT_EQ(s.textures.size(), 2u);
-    ASSERT_NE(m.diffuse_transmission_texture, render::no_texture);
-    ASSERT_NE(m.diffuse_transmission_color_texture, render::no_texture);
-    EXPECT_NEAR(s.textures[static_cast<std::size_t>(m.diffuse_transmission_color_texture)].texels[0].r, 0.5029f, 1e-4f);
-    expect_near(glm::vec3(m.diffuse_transmission_color_uv({0, 0}), 0.0f), {0.5f, 0, 0});
-    expect_near(glm::vec3(m.diffuse_transmission_uv({0, 0}), 0.0f), {0, 0, 0});
+    ASSERT_TRUE(m.diffuse_transmission_texture.is_there());
+    ASSERT_TRUE(m.diffuse_transmission_color_texture.is_there());
+    EXPECT_NEAR(s.textures[static_cast<std::size_t>(m.diffuse_transmission_color_texture.texture)].texels[0].r, 0.5029f,
+                1e-4f);
+    expect_near(glm::vec3(m.diffuse_transmission_color_texture.uv({0, 0}), 0.0f), {0.5f, 0, 0});
+    expect_near(glm::vec3(m.diffuse_transmission_texture.uv({0, 0}), 0.0f), {0, 0, 0});
 
     s = read(R"("diffuseTransmissionFactor":1)");
     expect_near(s.materials[0].diffuse_transmission_color, {1, 1, 1});
-    EXPECT_EQ(s.materials[0].diffuse_transmission_texture, render::no_texture);
+    EXPECT_FALSE(s.materials[0].diffuse_transmission_texture.is_there());
     s = read(R"("diffuseTransmissionTexture":{"index":0})");
     EXPECT_EQ(s.materials[0].diffuse_transmission, 0.0f);
     EXPECT_TRUE(s.textures.empty()) << "what has no effect is not loaded";
@@ -280,24 +282,32 @@ TEST_F(GltfFile, TextureTransforms) {
     // The extension's own example: the lower left quadrant, turned by 90 degrees clockwise.
     Scene s = read(R"(,"extensions":{"KHR_texture_transform":{"offset":[0,1],"rotation":1.57079632679,
         "scale":[0.5,0.5]}})");
-    for (const auto& transform : {s.materials[0].metallic_roughness_uv, s.materials[0].emission_uv}) {
+    for (const auto& transform : {s.materials[0].metallic_roughness_texture.uv, s.materials[0].emission_texture.uv}) {
         expect_at(transform, {0, 0}, {0, 1});
         expect_at(transform, {1, 0}, {0, 0.5f});
         expect_at(transform, {0, 1}, {0.5f, 1});
         expect_at(transform, {1, 1}, {0.5f, 0.5f});
     }
-    expect_at(s.materials[0].base_color_uv, {0.3f, 0.7f}, {0.3f, 0.7f});
+    expect_at(s.materials[0].base_color_texture.uv, {0.3f, 0.7f}, {0.3f, 0.7f});
 
     s = read(R"(,"extensions":{"KHR_texture_transform":{"scale":[3,-1]}})");
-    expect_at(s.materials[0].emission_uv, {0.5f, 0.25f}, {1.5f, -0.25f});
+    expect_at(s.materials[0].emission_texture.uv, {0.5f, 0.25f}, {1.5f, -0.25f});
 
     // Its texCoord overrides the texture's own, which would be another one than the base colour's.
     s = read(R"(,"texCoord":1,"extensions":{"KHR_texture_transform":{"texCoord":0}})");
-    EXPECT_EQ(s.uvs.size(), 3u);
+    ASSERT_EQ(s.uv_sets.size(), 1u);
+    EXPECT_EQ(s.uv_sets[0].size(), 3u);
+    EXPECT_EQ(s.uv_sets[0][1], glm::vec2(1, 0));
     const auto refused = [&](const std::string& members) {
         return refusal([&] { read(R"(,"extensions":{"KHR_texture_transform":{)" + members + "}}"); });
     };
-    EXPECT_THAT(refused(R"("texCoord":1)"), HasSubstr("two sets"));
+    // Two sets go together; what is not there is named.
+    s = read(R"(,"texCoord":1)");
+    ASSERT_EQ(s.uv_sets.size(), 2u);
+    EXPECT_EQ(s.materials[0].base_color_texture.uv_set, 0u);
+    EXPECT_EQ(s.materials[0].emission_texture.uv_set, 1u);
+    ASSERT_EQ(s.left_out.size(), 1u);
+    EXPECT_THAT(s.left_out[0].why, HasSubstr("TEXCOORD_1"));
     EXPECT_THAT(refused(R"("texCoord":"a")"), HasSubstr("texCoord"));
     EXPECT_THAT(refused(R"("offset":[1])"), HasSubstr("'tiled': KHR_texture_transform: offset"));
     EXPECT_THAT(refused(R"("scale":2)"), HasSubstr("scale"));
@@ -326,7 +336,7 @@ TEST_F(GltfFile, StripsAndFans) {
     expect_near(face_normal(strip, 0), {0, 0, 1});
     expect_near(face_normal(strip, 1), {0, 0, 1});
     EXPECT_TRUE(strip.normals.empty());
-    EXPECT_TRUE(strip.uvs.empty());
+    EXPECT_TRUE(strip.uv_sets.empty());
     const Scene fan = load_gltf(file(6));
     ASSERT_EQ(fan.triangles.size(), 2u);
     EXPECT_EQ(fan.triangles[1], glm::uvec3(0, 2, 3));

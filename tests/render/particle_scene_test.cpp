@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -133,6 +134,30 @@ TEST(ParticleScene, ScattersAsSurfacesReflect) {
         expect_near(found.y, expected.y, each.tolerance, each.name + " y");
         expect_near(found.z, expected.z, each.tolerance, each.name + " z");
     }
+}
+
+TEST(ParticleScene, ScattersNoMoreThanArrives) {
+    // Kd + Ks of 1.7 here: in a closed room, light would grow without end.
+    Material bright;
+    bright.model = Material::Model::phong;
+    bright.base_color = glm::vec3(0.9f, 0.8f, 0.1f);
+    bright.specular = glm::vec3(0.8f, 0.8f, 0.2f);
+    bright.exponent = 5.0f;
+    const Scene scene = plane_of(bright);
+    const render::RayScene rays(scene);
+    const render::ParticleScene surfaces(scene, rays, render::Shade::full);
+    const glm::vec3 direction = glm::normalize(glm::vec3(0.3f, -1.0f, 0.1f));
+    const auto met = surfaces.intersect(-2.0f * direction, direction);
+    ASSERT_TRUE(met);
+    constexpr std::uint32_t samples = 1u << 16;
+    const lightcuts::LowDiscrepancy numbers{3};
+    glm::dvec3 sum(0.0);
+    for (std::uint32_t i = 0; i < samples; ++i) {
+        const auto at = [&](std::uint32_t d) { return std::min(static_cast<float>(numbers(i, d)), 1.0f - 0x1p-24f); };
+        sum += glm::dvec3(surfaces.scatter(*met, direction, {at(0), at(1), at(2)}).weight);
+    }
+    for (int c = 0; c < 3; ++c) EXPECT_LT(sum[c] / samples, 1.01) << c;
+    EXPECT_GT(sum.x / samples, 0.9);
 }
 
 TEST(ParticleScene, KnowsItsBoundsAndAlbedos) {

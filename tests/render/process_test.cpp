@@ -274,6 +274,9 @@ TEST_F(Programs, RefuseImpossibleCameras) {
         {"room.obj --eye 1,2,3 --target 1,2,nan", 2, "--target"},
         {"room.obj --eye 1,2,3 --target 1,5,3 --up 0,1,0", 2, "--up"},
         {"room.obj --eye 1,2,3 --target 0,0,0 --camera north", 2, "--camera"},
+        {"room.obj --eye 0,1e20,0 --target 0,0,0", 1, "the target is 1e+20 from the eye"},
+        {"room.obj --eye 0,0,0 --target 0,0,1e-45", 1, "the target is 1e-45 from the eye"},
+        {"room.obj --eye 0,0,0 --target 1e-30,0,0 --up 0,1e-30,0", 1, "the target is 1e-30 from the eye"},
     };
     for (const Refusal& refusal : refusals) {
         const auto result = render(refusal.arguments);

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <set>
 #include <sstream>
 #include <string>
@@ -41,6 +44,24 @@ protected:
 
     Process::Result run(const std::string& program, const std::string& arguments) {
         return Process(program, words(arguments), folder.path(), streams.path()).wait();
+    }
+
+    /// Of a program that inherits what `prepare` does.
+    Process::Result render(const std::string& arguments, const std::function<void()>& prepare) {
+        return Process(LIGHTCUTS_RENDER_EXECUTABLE, words(arguments), folder.path(), streams.path(), prepare).wait();
+    }
+
+    /// A renderer that goes on while the test does.
+    std::unique_ptr<Process> start(const std::string& arguments, const std::function<void()>& prepare = {}) {
+        return std::make_unique<Process>(LIGHTCUTS_RENDER_EXECUTABLE, words(arguments), folder.path(), streams.path(),
+                                         prepare);
+    }
+
+    /// Bytes of a file; 0 if there is none.
+    std::uintmax_t size_of(const std::string& name) const {
+        std::error_code absent;
+        const std::uintmax_t size = std::filesystem::file_size(folder / name, absent);
+        return absent ? 0 : size;
     }
 
     static std::vector<std::string> words(const std::string& text) {

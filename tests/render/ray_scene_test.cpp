@@ -199,8 +199,12 @@ TEST(RayScene, ShowsAFloorWithoutHoles) {
         add_quad(floor, 3, 2, 1, 0);
         finish(floor);
         const RayScene rays(floor);
-        const glm::vec3 eye(0.0f, 0.7f * half, 0.0f), target(0.0f);
-        const render::View view({"above", eye, target, render::default_up(eye, target), 45.0f}, size, size);
+        const glm::dvec3 eye(0.0, static_cast<double>(0.7f * half), 0.0), target(0.0);
+        render::Camera camera;
+        camera.eye = eye;
+        camera.target = target;
+        camera.up = render::default_up(eye, target);
+        const render::View view(camera, glm::dvec3(0.0), size, size);
         int holes = 0;
         for (int y = 0; y < size; ++y) {
             for (int x = 0; x < size; ++x) {

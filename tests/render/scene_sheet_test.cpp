@@ -31,8 +31,8 @@ TEST(SceneSheet, HasTheFileAndItsCameras) {
     ASSERT_TRUE(read);
     EXPECT_EQ(read->file, "room.glb");
     ASSERT_EQ(read->cameras.size(), 2u);
-    EXPECT_EQ(read->cameras[0].camera.eye, glm::vec3(1.0f, 2.5f, 3.0f));
-    EXPECT_EQ(read->cameras[0].camera.target, glm::vec3(0.0f, 0.0f, -1.0f));
+    EXPECT_EQ(read->cameras[0].camera.eye, glm::dvec3(1.0, 2.5, 3.0));
+    EXPECT_EQ(read->cameras[0].camera.target, glm::dvec3(0.0, 0.0, -1.0));
     EXPECT_EQ(read->cameras[0].camera.up, glm::vec3(0.0f, 1.0f, 0.0f));
     EXPECT_EQ(read->cameras[0].camera.vertical_fov, 40.5f);
     EXPECT_EQ(read->cameras[0].height, 400);

@@ -269,13 +269,13 @@ TEST(Visibility, HonoursTheMaskOfATexture) {
     Stack stack;
     Material& leaf = stack.add(0.0f);
     leaf.alpha = Material::Alpha::mask;
-    leaf.base_color_texture = 0;
+    leaf.base_color_texture.texture = 0;
     render::Texture texture;
     texture.width = 2;
     texture.height = 1;
     texture.texels = {glm::vec4(1.0f, 1.0f, 1.0f, 0.0f), glm::vec4(1.0f)};
     stack.scene.textures.push_back(texture);
-    stack.scene.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    stack.scene.uv_sets = {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
     const RayScene rays(stack.scene);
     EXPECT_TRUE(rays.transmissive());
     EXPECT_EQ(rays.to_point({-0.5f, 0.1f, 1}, {-0.5f, 0.1f, -1}), glm::vec3(1.0f));
@@ -289,8 +289,8 @@ TEST(Visibility, HonoursAMaskApartFromTheColour) {
     Material& leaf = stack.add(0.0f);
     leaf.alpha = Material::Alpha::blend;
     leaf.base_alpha = 0.5f;
-    leaf.base_color_texture = 0;
-    leaf.alpha_texture = 1;
+    leaf.base_color_texture.texture = 0;
+    leaf.alpha_texture.texture = 1;
     render::Texture texture;
     texture.width = 2;
     texture.height = 1;
@@ -298,7 +298,7 @@ TEST(Visibility, HonoursAMaskApartFromTheColour) {
     stack.scene.textures.push_back(texture);
     std::swap(texture.texels[0], texture.texels[1]);
     stack.scene.textures.push_back(texture);
-    stack.scene.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    stack.scene.uv_sets = {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
     const RayScene rays(stack.scene);
     EXPECT_TRUE(rays.transmissive());
     EXPECT_EQ(rays.to_point({-0.5f, 0.1f, 1}, {-0.5f, 0.1f, -1}), glm::vec3(0.5f));
@@ -310,22 +310,22 @@ TEST(Surface, LooksWhereTheTextureTransformSays) {
     Material& material = stack.add(0.0f);
     material.model = Material::Model::phong;
     material.base_color = glm::vec3(1.0f);
-    material.base_color_texture = 0;
+    material.base_color_texture.texture = 0;
     render::Texture texture;
     texture.width = 2;
     texture.height = 1;
     texture.texels = {glm::vec4(0.25f), glm::vec4(0.75f)};
     stack.scene.textures.push_back(texture);
-    stack.scene.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    stack.scene.uv_sets = {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
     const auto seen_at = [&](float x) {
         return follow(stack.scene, {{x, 0.1f, 10.0f}, {0.0f, 0.0f, -1.0f}}).points.at(0).diffuse.x;
     };
     EXPECT_FLOAT_EQ(seen_at(-0.5f), 0.25f);
     EXPECT_FLOAT_EQ(seen_at(0.5f), 0.75f);
-    material.base_color_uv.offset = {0.5f, 0.0f};
+    material.base_color_texture.uv.offset = {0.5f, 0.0f};
     EXPECT_FLOAT_EQ(seen_at(-0.5f), 0.75f);
     EXPECT_FLOAT_EQ(seen_at(0.5f), 0.25f);
-    material.base_color_uv = {{0.0f, 0.0f}, {0.0f, 1.0f}, {1.0f, 0.0f}};  // u and v swapped
+    material.base_color_texture.uv = {{0.0f, 0.0f}, {0.0f, 1.0f}, {1.0f, 0.0f}};  // u and v swapped
     EXPECT_FLOAT_EQ(seen_at(-0.5f), seen_at(0.5f));
 }
 

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
+#include <render/io/map_picture.hpp>
 #include <render/picture.hpp>
 #include <render/surroundings.hpp>
 
@@ -127,7 +128,7 @@ TEST_F(Surroundings, ReadRadiancePictures) {
     EXPECT_EQ(report("render.json").at("lights").at("environment"), 50);
 
     folder.write("cut.hdr", hdr(8, 4, pixels.substr(0, 101)));
-    EXPECT_THAT(refusal([&] { render::read_hdr(folder / "cut.hdr"); }), HasSubstr("cut short"));
+    EXPECT_THAT(refusal([&] { render::read_map(folder / "cut.hdr"); }), HasSubstr("cut short"));
 }
 
 TEST_F(Surroundings, HaveASunAtItsElevationAndAzimuth) {

@@ -54,7 +54,8 @@ TEST(Validate, BadGeometry) {
     EXPECT_THAT(refused([](Scene& s) { s.positions[2].y = nan; }), HasSubstr("vertex 2"));
     EXPECT_THAT(refused([](Scene& s) { s.positions[2].y = -infinity; }), HasSubstr("vertex 2"));
     EXPECT_THAT(refused([](Scene& s) { s.normals[1].x = nan; }), HasSubstr("normal of vertex 1"));
-    EXPECT_THAT(refused([](Scene& s) { s.uvs.assign(4, glm::vec2(nan)); }), HasSubstr("uv of vertex 0"));
+    EXPECT_THAT(refused([](Scene& s) { s.uv_sets = {std::vector<glm::vec2>(4, glm::vec2(nan))}; }),
+                HasSubstr("uv of vertex 0"));
     EXPECT_THAT(refused([](Scene& s) { s.triangles[1].z = 4; }), HasSubstr("triangle 1"));
     EXPECT_THAT(refused([](Scene& s) { s.triangle_material[0] = 1; }), HasSubstr("triangle 0"));
     EXPECT_THAT(refused([](Scene& s) { s.normals.pop_back(); }), HasSubstr("one normal per vertex"));
@@ -66,9 +67,9 @@ TEST(Validate, BadMaterials) {
     EXPECT_THAT(refused([](Scene& s) { s.materials[0].emission.y = infinity; }), HasSubstr("emission"));
     EXPECT_THAT(refused([](Scene& s) { s.materials[0].roughness = nan; }), HasSubstr("roughness"));
     EXPECT_THAT(refused([](Scene& s) { s.materials[0].metallic = 2; }), HasSubstr("metallic"));
-    EXPECT_THAT(refused([](Scene& s) { s.materials[0].base_color_texture = 0; }), HasSubstr("texture"));
-    EXPECT_THAT(refused([](Scene& s) { s.materials[0].alpha_texture = 0; }), HasSubstr("texture"));
-    EXPECT_THAT(refused([](Scene& s) { s.materials[0].emission_uv.offset.x = std::nanf(""); }),
+    EXPECT_THAT(refused([](Scene& s) { s.materials[0].base_color_texture.texture = 0; }), HasSubstr("texture"));
+    EXPECT_THAT(refused([](Scene& s) { s.materials[0].alpha_texture.texture = 0; }), HasSubstr("texture"));
+    EXPECT_THAT(refused([](Scene& s) { s.materials[0].emission_texture.uv.offset.x = std::nanf(""); }),
                 HasSubstr("texture transform"));
 }
 

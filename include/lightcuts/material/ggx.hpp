@@ -36,10 +36,10 @@ template <Spectrum S = glm::vec3, class Shadowing = HeightCorrelated>
 class Ggx {
 public:
     /// `normal`, `view` (towards the viewer): unit; `f0`: reflectance at normal incidence, in [0, 1]; `alpha`:
-    /// roughness (glTF's roughness squared), >= 0; what is below 1e-6 counts as that. A view from below the surface
-    /// makes a black material.
-    Ggx(const glm::vec3& normal, const glm::vec3& view, const S& f0, float alpha)
-        : frame_(normal, view), alpha2_(detail::squared_roughness(alpha)), f0_(f0) {
+    /// roughness (glTF's roughness squared), >= 0; what is below 1e-6 counts as that; `f90`: reflectance at grazing
+    /// incidence, no channel of `f0` above it. A view from below the surface makes a black material.
+    Ggx(const glm::vec3& normal, const glm::vec3& view, const S& f0, float alpha, float f90 = 1.0f)
+        : frame_(normal, view), alpha2_(detail::squared_roughness(alpha)), f0_(f0), f90_(f90) {
         root_view_ = root(frame_.cos_view());
     }
 
@@ -50,7 +50,7 @@ public:
         const double value = without_fresnel(h.cosine, h.sin2);
         const double grazing = value * schlick(h.facing);
         const float a = static_cast<float>(value - grazing);
-        const float b = static_cast<float>(grazing);
+        const float b = static_cast<float>(grazing) * f90_;
         return make_spectrum<S>([&](int i) { return channel(f0_, i) * a + b; });
     }
 
@@ -78,8 +78,9 @@ public:
                                 (q * q * Shadowing::denominator(cos_view, root_view, c, root));
             const float away = detail::larger(1.0f - 0.5f * detail::square_root(h2), 0.0f), away2 = away * away;
             const float lit = detail::select(cosine > 0.0f, value, 0.0f);
-            grazing[i] = lit * (away2 * away2 * away);
-            plain[i] = lit - grazing[i];
+            const float share = lit * (away2 * away2 * away);
+            plain[i] = lit - share;
+            grazing[i] = share * f90_;
             doubtful[i] = detail::select(h2 < 0.01f, lit, 0.0f);
         }
         for (int i = 0; i < lane_count; ++i) {
@@ -101,7 +102,7 @@ public:
         const glm::vec3 normal(frame_.normal());
         detail::DirectionCaps caps;
         detail::HalfVectorRanges h;
-        alignas(32) Lanes most, factor, weight;
+        alignas(32) Lanes most, factor, facing, grazing;
         detail::caps_of(offsets, caps);
         detail::clamped_max_cosines(normal, caps, most);
         frame_.ranges_over(caps, h);
@@ -118,11 +119,13 @@ public:
             const float away = 1.0f - h.facing[i], away2 = away * away;
             // Where roundings add up to something that is no number, the comparison fails.
             factor[i] = detail::select(value < 1e30f, detail::larger(value * 1.0001f, 1e-18f), 1e30f);
-            weight[i] = away2 * away2 * away * 1.00001f + 1e-18f;
+            const float weight = away2 * away2 * away * 1.00001f + 1e-18f;
+            facing[i] = 1.0f - weight;
+            grazing[i] = weight * f90_;
         }
         for (int i = 0; i < lane_count; ++i) {
             bounds[static_cast<std::size_t>(i)] = make_spectrum<S>(
-                [&](int c) { return (channel(f0_, c) * (1.0f - weight[i]) + weight[i]) * factor[i]; });
+                [&](int c) { return (channel(f0_, c) * facing[i] + grazing[i]) * factor[i]; });
         }
         detail::blacken_below(normal, offsets, bounds);
     }
@@ -154,13 +157,14 @@ private:
         const float weight = detail::padded(schlick(h.facing - 1e-6));  // evaluate_many() knows it to 3e-7
         const float factor = detail::padded(value);
         return make_spectrum<S>(
-            [&](int i) { return detail::times(channel(f0_, i) * (1.0f - weight) + weight, factor); });
+            [&](int i) { return detail::times(channel(f0_, i) * (1.0f - weight) + weight * f90_, factor); });
     }
 
     detail::HalfVectorFrame frame_;
     double alpha2_;
     double root_view_;
     S f0_;
+    float f90_;
 };
 
 }  // namespace lightcuts

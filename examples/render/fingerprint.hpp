@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "options.hpp"
+#include "ray_scene.hpp"
+#include "scene.hpp"
+
+namespace render {
+
+/// Everything that a picture depends on, each with its name, so that it can be told what is different in another.
+class Fingerprint {
+public:
+    /// `value`: as text; of what has no short one, a hash that begins with `#`.
+    void add(const std::string& name, const std::string& value) { items_.emplace_back(name, value); }
+
+    std::string text() const;
+
+    /// What `text` gave. Of anything else, items that equal no picture's.
+    static Fingerprint parse(const std::string& text);
+
+    /// What differs in `now`, in words; empty if nothing does.
+    std::string difference(const Fingerprint& now) const;
+
+private:
+    std::vector<std::pair<std::string, std::string>> items_;
+};
+
+/// Of the picture that `options` ask for of `camera` in the prepared `scene`, by this program, `version`, on this
+/// machine. Not in it: where it goes, the number of threads, and how the scene's files are called.
+Fingerprint fingerprint_of(const Options& options, const Scene& scene, const Camera& camera, const RayScene& rays,
+                           const std::string& version);
+
+}  // namespace render

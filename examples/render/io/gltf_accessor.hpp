@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "io/gltf_document.hpp"
+
+namespace render {
+
+/// All numbers of accessor `index`, one element after the other; normalised integers are in [0, 1] or [-1, 1]. One
+/// without a bufferView is zeros; sparse values are put in.
+/// throws: invalid_input when it does not exist, has not `components` numbers an element, or reaches past its data.
+std::vector<double> read_accessor(GltfDocument& document, std::size_t index, std::size_t components);
+
+/// How many numbers its elements have. throws: invalid_input if its type is unknown.
+std::size_t components_of(const GltfDocument& document, std::size_t accessor);
+
+/// True iff the file holds values of accessor `index` other than the zeros that it begins with.
+bool has_data(const GltfDocument& document, std::size_t index);
+
+}  // namespace render

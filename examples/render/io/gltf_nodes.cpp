@@ -1,0 +1,198 @@
+#include "io/gltf_nodes.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include <glm/ext/matrix_transform.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/gtc/type_ptr.hpp>
+#include <glm/mat3x3.hpp>
+#include <lightcuts/core/invalid_input.hpp>
+
+#include "io/gltf_accessor.hpp"
+
+namespace render {
+namespace {
+
+glm::dmat3 rotation_of(const std::vector<double>& q) {
+    const glm::dquat quaternion(q[3], q[0], q[1], q[2]);
+    return glm::length(quaternion) > 0.0 ? glm::mat3_cast(glm::normalize(quaternion)) : glm::dmat3(1.0);
+}
+
+/// `m` with columns of unit length, as far as they have any.
+glm::dmat3 without_scale(glm::dmat3 m) {
+    for (int i = 0; i < 3; ++i) {
+        const double length = glm::length(m[i]);
+        if (length > 0.0) m[i] /= length;
+    }
+    return m;
+}
+
+}  // namespace
+
+GltfNodes::GltfNodes(GltfDocument& document, std::vector<LeftOut>& left_out) : document_(document) {
+    read_parts();
+    read_parents();
+    apply_animation(left_out);
+    compose();
+    find_shown();
+}
+
+glm::dmat4 GltfNodes::Parts::to_parent() const {
+    if (is_matrix) return matrix;
+    glm::dmat4 m(rotation);
+    for (int i = 0; i < 3; ++i) m[i] *= scale[i];
+    m[3] = glm::dvec4(translation, 1.0);
+    return m;
+}
+
+glm::dmat3 GltfNodes::Parts::turn() const { return is_matrix ? without_scale(glm::dmat3(matrix)) : rotation; }
+
+void GltfNodes::read_parts() {
+    const std::size_t count = document_.count("nodes");
+    parts_.resize(count);
+    children_.resize(count);
+    weights_.resize(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const JsonObject node = json(i);
+        Parts& parts = parts_[i];
+        if (const auto matrix = node.numbers("matrix", 16); !matrix.empty()) {
+            parts.matrix = glm::make_mat4(matrix.data());
+            parts.is_matrix = true;
+        }
+        if (const auto t = node.numbers("translation", 3); !t.empty()) parts.translation = glm::make_vec3(t.data());
+        if (const auto q = node.numbers("rotation", 4); !q.empty()) parts.rotation = rotation_of(q);
+        if (const auto s = node.numbers("scale", 3); !s.empty()) parts.scale = glm::make_vec3(s.data());
+        if (node.has("weights")) weights_[i] = node.numbers("weights", node.list("weights").size());
+        children_[i] = node.indices("children");
+    }
+}
+
+void GltfNodes::read_parents() {
+    parent_.assign(count(), none);
+    for (std::size_t i = 0; i < count(); ++i) {
+        for (const std::size_t child : children_[i]) {
+            json(child);  // throws if there is no such node
+            if (child == i) json(i).fail("it is its own ancestor; the file is damaged");
+            if (parent_[child] != none) json(child).fail("it has two parents; the file is damaged");
+            parent_[child] = i;
+        }
+    }
+}
+
+void GltfNodes::apply_animation(std::vector<LeftOut>& left_out) {
+    const std::size_t animations = document_.count("animations");
+    if (animations == 0) return;
+    const JsonObject first = document_.element("animations", 0, "animation");
+    for (const nlohmann::json& json : first.list("channels")) {
+        apply_channel(first, JsonObject(json, first.name() + ": a channel"));
+    }
+    leave_out(left_out, animations > 1 ? "all animations but the first" : "the animation",
+              animations > 1 ? "a picture shows one moment, the beginning of the first"
+                             : "a picture shows one moment, its beginning");
+}
+
+/// Takes the first key's value, which holds before it, too.
+void GltfNodes::apply_channel(const JsonObject& animation, const JsonObject& channel) {
+    const JsonObject target = channel.object("target");
+    const auto node = target.index("node");
+    if (!node) return;  // of an extension
+    json(*node);
+    const std::size_t sampler_index = channel.needed("sampler");
+    const nlohmann::json& samplers = animation.list("samplers");
+    if (sampler_index >= samplers.size()) channel.fail("its sampler does not exist; the file is damaged");
+    const JsonObject sampler(samplers[sampler_index], animation.name() + ": a sampler");
+    const std::size_t output = sampler.needed("output");
+    const std::size_t components = components_of(document_, output);
+    const std::vector<double> values = read_accessor(document_, output, components);
+    // A cubic spline's keys are triples: incoming tangent, value, outgoing tangent.
+    const bool is_cubic = sampler.text("interpolation", "LINEAR") == "CUBICSPLINE";
+    const std::string path = target.text("path");
+    const std::size_t keys = document_.element("accessors", sampler.needed("input"), "accessor").needed("count");
+    const std::size_t key_size = keys > 0 ? values.size() / keys : 0;
+    const std::size_t size = is_cubic ? key_size / 3 : key_size;
+    const std::size_t begin = is_cubic ? size : 0;
+    const std::size_t wanted = path == "rotation" ? 4 : 3;
+    if (size == 0 || (path != "weights" && size != wanted)) sampler.fail("its output has too few values");
+    const std::vector<double> value(values.begin() + static_cast<std::ptrdiff_t>(begin),
+                                    values.begin() + static_cast<std::ptrdiff_t>(begin + size));
+    Parts& parts = parts_[*node];
+    if (path == "weights") {
+        weights_[*node] = value;
+    } else if (path == "translation") {
+        parts.translation = glm::make_vec3(value.data());
+    } else if (path == "rotation") {
+        parts.rotation = rotation_of(value);
+    } else if (path == "scale") {
+        parts.scale = glm::make_vec3(value.data());
+    } else {
+        return;
+    }
+    if (path != "weights" && parts.is_matrix) json(*node).fail("it is animated, so it may not have a matrix");
+}
+
+void GltfNodes::compose() {
+    to_world_.resize(count());
+    forward_.resize(count());
+    std::vector<glm::dmat3> turns(count());
+    std::vector<std::size_t> order;
+    for (std::size_t i = 0; i < count(); ++i) {
+        if (parent_[i] == none) order.push_back(i);
+    }
+    for (std::size_t at = 0; at < order.size(); ++at) {
+        const std::size_t i = order[at];
+        const bool is_root = parent_[i] == none;
+        to_world_[i] = is_root ? parts_[i].to_parent() : to_world_[parent_[i]] * parts_[i].to_parent();
+        turns[i] = is_root ? parts_[i].turn() : turns[parent_[i]] * parts_[i].turn();
+        // Of an uneven scale the transform knows where -z leads; of one of zero only the rotations do.
+        const glm::dvec3 axis = -glm::dvec3(to_world_[i][2]);
+        const double length = glm::length(axis);
+        const double rest = glm::length(turns[i][2]);
+        forward_[i] = length > 0.0 ? axis / length : rest > 0.0 ? -turns[i][2] / rest : glm::dvec3(0.0);
+        order.insert(order.end(), children_[i].begin(), children_[i].end());
+    }
+    if (order.size() == count()) return;
+    // What hangs from no root is part of a ring.
+    std::vector<bool> reached(count());
+    for (const std::size_t i : order) reached[i] = true;
+    const auto lost = std::find(reached.begin(), reached.end(), false) - reached.begin();
+    json(static_cast<std::size_t>(lost)).fail("it is its own ancestor; the file is damaged");
+}
+
+/// The default scene's root nodes; of a file without scenes, the nodes that are nobody's child.
+std::vector<std::size_t> GltfNodes::roots() const {
+    if (document_.count("scenes") > 0) {
+        const JsonObject scene = document_.element("scenes", document_.root().whole_number("scene", 0), "scene");
+        const std::vector<std::size_t> roots = scene.indices("nodes");
+        for (const std::size_t root : roots) {
+            json(root);
+            if (parent_[root] != none) scene.fail("node " + std::to_string(root) + " is no root; correct `nodes`");
+        }
+        return roots;
+    }
+    std::vector<std::size_t> roots;
+    for (std::size_t i = 0; i < count(); ++i) {
+        if (parent_[i] == none) roots.push_back(i);
+    }
+    return roots;
+}
+
+void GltfNodes::find_shown() {
+    std::vector<std::size_t> open = roots();
+    std::reverse(open.begin(), open.end());
+    std::vector<bool> seen(count());
+    while (!open.empty()) {
+        const std::size_t i = open.back();
+        open.pop_back();
+        if (seen[i]) continue;  // a root that the scene names twice
+        seen[i] = true;
+        const auto visibility = json(i).extension("KHR_node_visibility");
+        if (visibility && !visibility->flag("visible", true)) continue;
+        shown_.push_back(i);
+        open.insert(open.end(), children_[i].rbegin(), children_[i].rend());
+    }
+}
+
+}  // namespace render
