@@ -1,6 +1,8 @@
 #include "view.hpp"
 
 #include <cmath>
+#include <sstream>
+#include <string>
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -68,7 +70,7 @@ EyeRay View::ray(float x, float y) const {
 }
 
 void require_usable(const Camera& camera, const std::string& where) {
-    const auto require = [&](bool good, const char* problem) {
+    const auto require = [&](bool good, const std::string& problem) {
         if (!good) throw lightcuts::invalid_input(where + ": " + problem);
     };
     require(is_finite(camera.eye) && is_finite(camera.target) && lightcuts::is_finite(camera.up),

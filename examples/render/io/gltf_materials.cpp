@@ -33,13 +33,15 @@ Texture::Wrap wrap_mode(const JsonObject& sampler, const char* key) {
     }
 }
 
-/// `info`: a textureInfo; `material`: as messages call it.
-UvTransform transform_of(const JsonObject& info, const JsonObject& material) {
+/// Of a textureInfo; `material`: as messages call it.
+std::optional<JsonObject> texture_transform(const JsonObject& info, const JsonObject& material) {
+    constexpr const char* name = "KHR_texture_transform";
+    if (!info.extension(name)) return std::nullopt;
+    return JsonObject(*info.object("extensions").find(name), material.name() + ": " + name);
+}
+
+UvTransform transform_of(const JsonObject& transform) {
     UvTransform result;
-    const auto extension = info.extension("KHR_texture_transform");
-    if (!extension) return result;
-    const JsonObject transform(*info.find("extensions")->find("KHR_texture_transform"),
-                               material.name() + ": KHR_texture_transform");
     std::vector<double> scale = transform.numbers("scale", 2);
     std::vector<double> offset = transform.numbers("offset", 2);
     if (scale.empty()) scale = {1.0, 1.0};
@@ -52,16 +54,7 @@ UvTransform transform_of(const JsonObject& info, const JsonObject& material) {
     return result;
 }
 
-/// The set of coordinates: the transform's, if it names one.
-std::size_t uv_number(const JsonObject& info, const JsonObject& material) {
-    const std::size_t own = info.whole_number("texCoord", 0);
-    if (!info.extension("KHR_texture_transform")) return own;
-    const JsonObject transform(*info.find("extensions")->find("KHR_texture_transform"),
-                               material.name() + ": KHR_texture_transform");
-    return transform.whole_number("texCoord", own);
-}
-
-/// "the second texture of ..." is named by its file or its own name.
+/// By its file, or else its own name.
 std::string name_of_image(const JsonObject& image) {
     const std::string uri = image.text("uri");
     return !uri.empty() && !is_data_uri(uri) ? excerpt(uri) : image.name();
@@ -207,11 +200,12 @@ TextureUse GltfMaterials::texture(const JsonObject& owner, const char* key, Codi
     };
     const auto index = whole("index");
     if (!index) throw invalid_input(name + ": its index is missing; correct it");
-    whole("texCoord");
-    const UvTransform uv = transform_of(info, material);
-    const std::size_t number = uv_number(info, material);
+    const std::size_t own_set = whole("texCoord").value_or(0);
+    const auto transform = texture_transform(info, material);
+    const UvTransform uv = transform ? transform_of(*transform) : UvTransform();
+    const std::size_t set = transform ? transform->whole_number("texCoord", own_set) : own_set;
     if (!wanted) return {};
-    return {load(*index, coding), uv_set(number), uv};
+    return {load(*index, coding), uv_set(set), uv};
 }
 
 std::uint32_t GltfMaterials::uv_set(std::size_t number) {

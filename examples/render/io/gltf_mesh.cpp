@@ -10,6 +10,9 @@
 namespace render {
 namespace {
 
+/// Joints are indices of 16 bits.
+constexpr double most_joints = 65535.0;
+
 enum class Mode : std::size_t { list = 4, strip = 5, fan = 6 };
 
 std::vector<glm::dvec3> vectors_of(const std::vector<double>& numbers) {
@@ -131,8 +134,9 @@ void GltfMeshes::read_bones(const JsonObject& attributes, GltfPrimitive& primiti
         std::vector<GltfBones>& bones = primitive.bones.emplace_back(count);
         for (std::size_t v = 0; v < count; ++v) {
             for (std::size_t k = 0; k < 4; ++k) {
-                if (!(joints[4 * v + k] >= 0.0 && weights[4 * v + k] >= 0.0)) {
-                    attributes.fail("a joint or its weight is negative; the file is damaged");
+                const bool is_joint = joints[4 * v + k] >= 0.0 && joints[4 * v + k] <= most_joints;
+                if (!is_joint || !(weights[4 * v + k] >= 0.0)) {
+                    attributes.fail("a joint is no index, or its weight is negative; the file is damaged");
                 }
                 bones[v].joints[k] = static_cast<std::uint32_t>(joints[4 * v + k]);
                 bones[v].weights[k] = weights[4 * v + k];
