@@ -8,7 +8,7 @@ renderer_packages=(
 )
 test_packages=(
     ccache clang clang-format clang-tidy doxygen libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev
-    libcgal-dev
+    libcgal-dev pkgconf
 )
 
 fuzz_packages=(clang libclang-rt-14-dev)

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "figures.hpp"
+#include "recording_oracle.hpp"
 #include "workload.hpp"
 
 namespace {
@@ -15,19 +16,6 @@ namespace {
 using namespace benchmark;
 using lightcuts::CutResult;
 using lightcuts::VisibilityQuery;
-
-/// Remembers the queries of an oracle and how they came in batches.
-struct RecordingOracle {
-    const render::OpaqueOracle& oracle;
-    std::vector<VisibilityQuery>& queries;
-    std::vector<std::size_t>& batch_ends;
-
-    void many(std::span<const VisibilityQuery> batch, std::span<float> answers) const {
-        queries.insert(queries.end(), batch.begin(), batch.end());
-        batch_ends.push_back(queries.size());
-        oracle.many(batch, answers);
-    }
-};
 
 /// Counts the bounds that a policy is asked for.
 struct CountingBounds : lightcuts::TwoStageBounds {
@@ -88,18 +76,18 @@ Row measure(const std::string& scene, int width, int height, int runs, std::size
     row.receivers = work.receivers().size();
     const auto count = static_cast<double>(row.receivers);
 
-    std::vector<VisibilityQuery> queries;
-    std::vector<std::size_t> batch_ends;
+    RecordedRays record;
     std::uint64_t quick_calls = 0, tight_calls = 0;
     CountingBounds counting;
     counting.quick_calls = &quick_calls;
     counting.tight_calls = &tight_calls;
-    const Sums sums = shade_all(work, RecordingOracle{oracle, queries, batch_ends}, counting);
+    const Sums sums = shade_all(work, RecordingOracle{oracle, record}, counting);
     row.cut_size = static_cast<double>(sums.nodes) / count;
     row.rays = static_cast<double>(sums.queries) / count;
     row.quick_bounds = static_cast<double>(quick_calls) / count;
     row.tight_bounds = static_cast<double>(tight_calls) / count;
 
+    const std::vector<VisibilityQuery>& queries = record.queries;
     std::vector<RTCRay> rays(queries.size());
     const auto set_up = [&] {
         for (std::size_t i = 0; i < queries.size(); ++i) {
@@ -124,12 +112,9 @@ Row measure(const std::string& scene, int width, int height, int runs, std::size
             }
         });
         const double stream = seconds([&] {
-            std::size_t begin = 0;
-            for (const std::size_t end : batch_ends) {
-                oracle.many(std::span<const VisibilityQuery>(queries).subspan(begin, end - begin),
-                            std::span(answers).subspan(begin, end - begin));
-                begin = end;
-            }
+            record.for_each_batch([&](std::size_t first, std::size_t size) {
+                oracle.many(std::span(queries).subspan(first, size), std::span(answers).subspan(first, size));
+            });
         });
         cut_times.push_back(cut);
         ratios.push_back(cut / replay);

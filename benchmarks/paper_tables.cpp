@@ -30,7 +30,7 @@ struct Settings {
     std::size_t points = 512, terms = 50'000'000;
     std::vector<std::string> cuts{"builtin:hall",
                                   "builtin:hall?indirect=50000",
-                                  "builtin:hall?sun-sky=35,120&indirect=50000",
+                                  "builtin:hall?sun-sky=35,120&ground=0&indirect=50000",
                                   "builtin:tableau",
                                   "builtin:tableau?indirect=10000",
                                   "builtin:colonnade?indirect=0",

@@ -42,6 +42,7 @@ RTCScene make_scene(RTCDevice device) {
     for (unsigned i = 0; i < 4 * slabs; ++i) indices[i] = i;
     rtcCommitGeometry(mesh);
     RTCScene scene = rtcNewScene(device);
+    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);  // or rays slip between triangles that share an edge
     rtcAttachGeometry(scene, mesh);
     rtcReleaseGeometry(mesh);
     rtcCommitScene(scene);

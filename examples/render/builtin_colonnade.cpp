@@ -44,6 +44,7 @@ public:
         scene_.cameras.push_back({"aisle", {4.45f, 1.7f, 11.0f}, {4.55f, 2.25f, 0.0f}, {0, 1, 0}, 58.0f});
         scene_.cameras.push_back({"front", {13.5f, 1.9f, 24.0f}, {0.5f, 3.0f, 3.0f}, {0, 1, 0}, 46.0f});
         scene_.lighting.sun = lightcuts::SunPosition{30.0, 58.0, 3.0};
+        scene_.lighting.ground = 0.0f;
         scene_.lighting.indirect = 20'000;
         scene_.lighting.clamp = 0.5f;  // some fifty lights reach the ceiling: twice their mean is a spike
     }

@@ -92,7 +92,11 @@ private:
             case 2: add_ring(size); break;
             case 3: add_cone(size, dice.uniform(0.8f, 1.8f)); break;
             case 4: add_plant(m_, 2.2f * size, 12, dice, paint(dice), leaf_); break;
-            case 5: add_vase(m_, static_cast<int>(dice.pick(3)), 2.2f * size, 14, paint(dice)); break;
+            case 5: {
+                const std::uint32_t glaze = paint(dice);
+                add_vase(m_, static_cast<int>(dice.pick(3)), 2.2f * size, 14, glaze);
+                break;
+            }
             case 6: add_arch(size); break;
             default: add_boxes(dice); break;
         }

@@ -246,7 +246,7 @@ private:
             // Something on top of each.
             const glm::mat4 base = m_.place;
             m_.place = glm::translate(base, {dice.uniform(-0.4f, 0.4f), 2.751f, 0.18f});
-            add_vase(m_, static_cast<int>(dice.pick(3)), dice.uniform(0.35f, 0.5f), 18, glaze(dice));
+            add_some_vase(0.35f, 0.5f, 18, dice);
         }
         m_.stand({partition_x - 0.102f, 0, 1.1f}, -90.0f);
         add_bookcase(m_, 1.2f, 1.05f, 3, dice, oak_, covers_);
@@ -295,7 +295,7 @@ private:
         put(0.4f, dice.uniform(-0.25f, 0.1f));
         add_book_stack(m_, 2 + static_cast<int>(dice.pick(3)), dice, covers_);
         put(0.02f, dice.uniform(-0.1f, 0.1f));
-        add_vase(m_, static_cast<int>(dice.pick(3)), dice.uniform(0.34f, 0.46f), 24, glaze(dice));
+        add_some_vase(0.34f, 0.46f, 24, dice);
         const float radius = dice.uniform(0.05f, 0.08f);
         put(0.22f, 0.25f);
         m_.material = dice.pick(2) == 0 ? copper_ : steel_;
@@ -351,6 +351,12 @@ private:
         scene_.cameras.push_back({"nave", {-9.6f, 3.6f, 0.0f}, {3.0f, 0.6f, -0.1f}, {0, 1, 0}, 58.0f});
         scene_.cameras.push_back({"still life", {-4.4f, 1.55f, 1.75f}, {-2.3f, 0.8f, -0.5f}, {0, 1, 0}, 38.0f});
         scene_.cameras.push_back({"behind the partition", {9.6f, 2.2f, 4.2f}, {5.6f, 1.2f, -1.6f}, {0, 1, 0}, 52.0f});
+    }
+
+    void add_some_vase(float shortest, float tallest, int segments, Dice& dice) {
+        const std::uint32_t paint = glaze(dice);
+        const float height = dice.uniform(shortest, tallest);
+        add_vase(m_, static_cast<int>(dice.pick(3)), height, segments, paint);
     }
 
     std::uint32_t glaze(Dice& dice) { return glazes_[dice.pick(glazes_.size())]; }

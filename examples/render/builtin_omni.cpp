@@ -59,8 +59,13 @@ public:
             while (s + 1 < swarms_.size() && chosen > swarms_[s].share) chosen -= swarms_[s++].share;
             const Swarm& swarm = swarms_[s];
             // The sum of three uniform numbers is bell-shaped and bounded.
-            const auto bell = [&] { return dice.uniform(-1, 1) + dice.uniform(-1, 1) + dice.uniform(-1, 1); };
-            const glm::vec3 offset(bell(), bell(), bell());
+            const auto bell = [&] {
+                float sum = dice.uniform(-1, 1);
+                sum += dice.uniform(-1, 1);
+                return sum + dice.uniform(-1, 1);
+            };
+            glm::vec3 offset(0.0f);
+            for (int axis = 2; axis >= 0; --axis) offset[axis] = bell();
             const glm::vec3 p = swarm.center + swarm.spread * offset;
             const float brightness = dice.uniform(0.3f, 1.7f);
             if (p.y < ground_height(p.x, p.z) + clearance || !m_.is_free(p, clearance)) continue;
@@ -192,9 +197,8 @@ private:
             const float ring = std::sqrt(1.0f - height * height);
             const glm::vec3 out(ring * std::cos(angle), 0.75f * height, ring * std::sin(angle));
             const glm::vec3 from = crown + out * (wide * dice.uniform(0.3f, 1.0f));
-            m_.blade(from,
-                     from + 0.5f * out + glm::vec3(dice.uniform(-0.12f, 0.12f), 0.05f, dice.uniform(-0.12f, 0.12f)),
-                     0.2f, 0.14f, 3);
+            const float z = dice.uniform(-0.12f, 0.12f), x = dice.uniform(-0.12f, 0.12f);
+            m_.blade(from, from + 0.5f * out + glm::vec3(x, 0.05f, z), 0.2f, 0.14f, 3);
         }
         const glm::vec3 warm(0.95f, 0.85f, 0.35f);
         const glm::vec3 green(0.62f, 0.95f, 0.35f);

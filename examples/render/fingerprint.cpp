@@ -16,7 +16,7 @@ namespace {
 /// Options that change no picture, and those whose whole effect is in the hashes of the scene and the camera.
 constexpr std::string_view not_compared[] = {"SCENE",    "--output", "--threads", "--quiet", "--reference",
                                              "--resume", "--eye",    "--target",  "--up",    "--camera",
-                                             "--fov",    "--lights", "--env"};
+                                             "--fov",    "--lights", "--env",     "--isa"};
 
 std::string text_of(const std::string& value) { return value; }
 /// The shortest that is read as the same number.
@@ -59,6 +59,7 @@ void add_options(Fingerprint& print, const Options& o) {
     add("--sun-sky", o.sun_sky ? text_of(o.sun_sky->elevation) + "," + text_of(o.sun_sky->azimuth) : "no");
     add("--turbidity", o.turbidity);
     add("--sky-lights", o.sky_lights);
+    add("--ground", o.ground);
     add("--indirect", o.indirect);
     add("--clamp", o.clamp.is_automatic() ? "auto" : text_of(o.clamp.radiance));
     add("--clamp-ratio", o.clamp.ratio);
@@ -108,7 +109,7 @@ void add_to(ContentHash& hash, const Background& background) {
     if (environment) add_to(hash, *environment);
     // A few directions tell one sky from another.
     if (!daylight) return;
-    hash.add(glm::vec3(daylight->towards_sun())).add(daylight->sun_radiance());
+    hash.add(glm::vec3(daylight->towards_sun())).add(daylight->sun_radiance()).add(daylight->ground_radiance());
     for (const float height : {0.1f, 0.5f, 0.9f}) hash.add(daylight->sky_radiance(glm::dvec3(0.3, height, 0.2)));
 }
 
@@ -116,8 +117,8 @@ void add_scene(Fingerprint& print, const Scene& scene) {
     // Left out: names, what is only counted or told, and `lighting`, which has become lights and background.
     const auto& [name, origin, positions, normals, tangents, colors, uv_sets, triangles, triangle_material, materials,
                  textures, cameras, omni, oriented, spots, directional, spheres, sphere_points, virtual_lights,
-                 environment_lights, sun_lights, sky_lights, lighting, background, dropped_triangles, dropped_lights,
-                 left_out] = scene;
+                 environment_lights, sun_lights, sky_lights, ground_lights, lighting, background, dropped_triangles,
+                 dropped_lights, left_out] = scene;
     ContentHash surfaces, matter, lights, around;
     surfaces.add(origin).add(positions).add(normals).add(tangents).add(colors).add(uv_sets.size());
     for (const std::vector<glm::vec2>& uvs : uv_sets) surfaces.add(uvs);
@@ -139,16 +140,11 @@ void add_camera(Fingerprint& print, const Camera& camera) {
 
 /// Version and kinds of instructions: rays may differ by a rounding between them.
 std::string ray_tracer(const RayScene& rays) {
-    const auto property = [&](RTCDeviceProperty name) {
-        return std::to_string(rtcGetDeviceProperty(rays.embree_device(), name));
-    };
-    std::string text = "Embree " + property(RTC_DEVICE_PROPERTY_VERSION) + " by " +
-                       property(RTC_DEVICE_PROPERTY_NATIVE_RAY4_SUPPORTED) +
-                       property(RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED) +
-                       property(RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED);
+    std::string text = "Embree " + rays.tracer().version() + " by " + rays.tracer().isa();
 #if defined(__x86_64__)
-    if (__builtin_cpu_supports("avx2")) text += " AVX2";
-    if (__builtin_cpu_supports("avx512f")) text += " AVX-512";
+    // The C library chooses among its functions by these.
+    if (__builtin_cpu_supports("avx2")) text += ", AVX2";
+    if (__builtin_cpu_supports("avx512f")) text += ", AVX-512";
 #endif
     return text;
 }

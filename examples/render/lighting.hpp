@@ -13,6 +13,9 @@ namespace render {
 struct Lighting {
     std::optional<Picture> environment;  ///< latitude-longitude map of radiance around it
     std::optional<lightcuts::SunPosition> sun;
+    /// Albedo of the ground below the horizon, under sun and sky: 0 for a scene that stands on ground of its own, which
+    /// hides all light from there.
+    std::optional<float> ground;
     std::uint32_t indirect = 0;  ///< about so many virtual lights
     /// Most radiance that one of these adds at a point; empty: a share of the point's total, see `--clamp`.
     std::optional<float> clamp;

@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 #include <lightcuts/core/invalid_input.hpp>
 
+#include "adaptation.hpp"
 #include "error.hpp"
 #include "escape.hpp"
 #include "fingerprint.hpp"
@@ -21,6 +22,7 @@
 #include "picture.hpp"
 #include "prepare_scene.hpp"
 #include "ray_scene.hpp"
+#include "ray_tracer.hpp"
 #include "render_loop.hpp"
 #include "resume_file.hpp"
 #include "shader.hpp"
@@ -176,11 +178,12 @@ ExitStatus render_scene(Options options) {
     tbb::task_arena arena(threads);
 
     Stopwatch watch;
+    const RayTracer tracer(options.isa);
     Scene scene = prepare_scene(options);
     const Camera camera = choose_camera(scene, options);
     say_what_is_left_out(scene, options);
-    const RayScene rays(scene);
-    RunReport report(options, scene, threads);
+    const RayScene rays(scene, tracer);
+    RunReport report(options, scene, tracer, threads);
     report.seconds.load = watch.lap();
 
     Rendering rendering;

@@ -11,6 +11,8 @@
 #include <CLI/CLI.hpp>
 #include <glm/geometric.hpp>
 
+#include "ray_tracer.hpp"
+
 namespace render {
 
 namespace {
@@ -297,6 +299,8 @@ Options parse_options(int argc, const char* const* argv) {
     });
     count("--sky-lights", "distant lights that stand for the sky (5000); 0: it is only seen", 0, many,
           options.sky_lights);
+    text("--ground", "ALBEDO", "of the ground below the horizon, which sun and sky light (0.2); 0: black",
+         [&](const std::string& s) { options.ground = number_in("--ground", s, 0.0f, 1.0f, "a number from 0 to 1"); });
     count("--indirect", "about so many virtual lights for indirect light (0, or the scene's own)", 0, many,
           options.indirect);
     std::string clamp = "auto";
@@ -318,6 +322,11 @@ Options parse_options(int argc, const char* const* argv) {
     });
     text("--aov", "LIST", "further layers, comma-separated: " + listed(aov_names()),
          [&](const std::string& s) { set_aovs(options, s); });
+    text("--isa", "NAME", "instruction set of the ray tracer: " + listed(isa_names()) + " (the best)",
+         [&](const std::string& s) {
+             if (!contains(isa_names(), s)) refuse("--isa", s, "one of " + listed(isa_names()));
+             options.isa = s;
+         });
     text("--threads", "N", "threads (all)", [&](const std::string& s) {
         options.threads = number_in<int>("--threads", s, 1, 4096, "a whole number from 1 to 4096");
     });

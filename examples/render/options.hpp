@@ -63,11 +63,13 @@ struct Options {
     std::optional<SunPosition> sun_sky;
     float turbidity = 3.0f;
     std::uint32_t sky_lights = 5000;  ///< that stand for the sky; 0: it is only seen
+    float ground = 0.2f;              ///< albedo of what is below the horizon, with `sun_sky`
     std::uint32_t indirect = 0;       ///< about so many virtual lights; 0: direct light only
     /// Of virtual lights, by methods that clamp.
     lightcuts::ClampOptions clamp = lightcuts::automatic_clamping;
     bool diffuse_materials = false;   ///< everything is Lambert with its base colour
     std::filesystem::path reference;  ///< picture to compare with; empty: none
+    std::string isa;                  ///< of the ray tracer, one of isa_names(); empty: what Embree chooses
     std::vector<std::string> aovs;    ///< further layers, each of `aov_names()`
     int threads = 0;                  ///< 0: all
     std::uint64_t seed = 1;

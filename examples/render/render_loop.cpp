@@ -21,7 +21,6 @@ namespace {
 constexpr int tile_side = 16;
 /// Points are shaded as soon as so many wait, so that many eye rays a pixel do not need much memory.
 constexpr std::size_t largest_batch = 2048;
-constexpr int adaptation_grid = 32;
 
 /// What a pixel has gathered from its eye rays.
 struct PixelSum {
@@ -273,31 +272,6 @@ Rendering render_picture(const View& view, const SurfaceFinder& surfaces, const 
     }
     rendering.interrupted = rendering.tiles < tiles.size();
     return rendering;
-}
-
-float measure_adaptation(const View& view, const SurfaceFinder& surfaces, const Shader& shader) {
-    const int columns = std::min(adaptation_grid, view.width());
-    const int rows = std::min(adaptation_grid, view.height());
-    std::vector<glm::dvec3> row_sums(static_cast<std::size_t>(rows), glm::dvec3(0.0));
-    tbb::parallel_for(0, rows, [&](int row) {
-        std::vector<SurfacePoint> points;
-        for (int column = 0; column < columns; ++column) {
-            const float x = (static_cast<float>(column) + 0.5f) / static_cast<float>(columns);
-            const float y = (static_cast<float>(row) + 0.5f) / static_cast<float>(rows);
-            const EyeRay ray = view.ray(x * static_cast<float>(view.width()), y * static_cast<float>(view.height()));
-            surfaces.follow(ray, static_cast<std::uint32_t>(row * columns + column), 0, points);
-        }
-        std::vector<Shading> shadings(points.size());
-        const auto scratch = shader.make_scratch();
-        shader.shade(points, shadings, *scratch);
-        glm::dvec3& sum = row_sums[static_cast<std::size_t>(row)];
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            sum += glm::dvec3(points[i].weight) * glm::dvec3(shadings[i].radiance);
-        }
-    });
-    glm::dvec3 sum(0.0);
-    for (const glm::dvec3& s : row_sums) sum += s;
-    return static_cast<float>((sum.x + sum.y + sum.z) / (3.0 * columns * rows));
 }
 
 }  // namespace render

@@ -47,7 +47,4 @@ struct Rendering {
 Rendering render_picture(const View& view, const SurfaceFinder& surfaces, const Shader& shader, const Options& options,
                          ResumeFile* resume_file = nullptr);
 
-/// Mean of the channels and over a coarse grid of pixels of the light that surfaces reflect: what an eye adapts to.
-float measure_adaptation(const View& view, const SurfaceFinder& surfaces, const Shader& shader);
-
 }  // namespace render

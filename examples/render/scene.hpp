@@ -149,6 +149,7 @@ struct Scene {
     std::size_t environment_lights = 0;  ///< of `directional`: those of the environment map
     std::size_t sun_lights = 0;          ///< likewise
     std::size_t sky_lights = 0;
+    std::size_t ground_lights = 0;
 
     Lighting lighting;
     Background background;

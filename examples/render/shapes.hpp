@@ -14,7 +14,8 @@
 
 namespace render {
 
-/// Random numbers for procedural scenes: the n-th call hashes (seed, n), on every machine alike.
+/// Random numbers for procedural scenes: the n-th call hashes (seed, n), on every machine alike. Two calls among the
+/// arguments of one function come in an order that compilers choose: give the first a name.
 class Dice {
 public:
     explicit Dice(std::uint64_t seed) : seed_(seed) {}

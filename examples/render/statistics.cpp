@@ -61,6 +61,7 @@ Json options_json(const RunReport& report) {
                                 : Json(nullptr);
     json["turbidity"] = as_written(o.turbidity);
     json["sky_lights"] = o.sky_lights;
+    json["ground"] = as_written(o.ground);
     json["indirect"] = o.indirect;
     const lightcuts::ClampOptions clamp = o.clamping();
     json["clamp"] = clamp.is_automatic()    ? Json("auto")
@@ -68,6 +69,7 @@ Json options_json(const RunReport& report) {
                                             : Json("off");
     json["clamp_ratio"] = clamp.is_automatic() ? Json(as_written(clamp.ratio)) : Json(nullptr);
     json["materials"] = o.diffuse_materials ? "diffuse" : "full";
+    json["isa"] = o.isa.empty() ? Json(nullptr) : Json(o.isa);
     json["reference"] = path_or_null(o.reference);
     json["aov"] = o.aovs;
     return json;
@@ -115,12 +117,13 @@ Json to_json(const RunReport& report) {
     json["spp"] = o.spp;
     json["seed"] = o.seed;
     json["threads"] = report.threads;
+    json["ray_tracer"] = {{"version", report.ray_tracer.version()}, {"isa", report.ray_tracer.isa()}};
     json["interrupted"] = report.interrupted;
     json["picture"] = as_utf8(report.picture.string());
     json["resumed_tiles"] = report.resumed_tiles;
     json["triangles"] = scene.triangles.size();
     const std::size_t of_file = scene.directional.size() - scene.environment_lights - scene.sun_lights -
-                                scene.sky_lights;
+                                scene.sky_lights - scene.ground_lights;
     json["lights"] = {{"omni", scene.omni.size()},
                       {"oriented", scene.oriented.size()},
                       {"spot", scene.spots.size()},
@@ -129,6 +132,7 @@ Json to_json(const RunReport& report) {
                       {"environment", scene.environment_lights},
                       {"sun", scene.sun_lights},
                       {"sky", scene.sky_lights},
+                      {"ground", scene.ground_lights},
                       {"virtual", scene.virtual_lights.size()}};
     json["seconds"] = {{"load", report.seconds.load},
                        {"particles", report.seconds.particles},

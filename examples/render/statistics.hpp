@@ -10,6 +10,7 @@
 
 #include "error.hpp"
 #include "options.hpp"
+#include "ray_tracer.hpp"
 #include "render_loop.hpp"
 #include "scene.hpp"
 
@@ -25,10 +26,12 @@ struct PhaseTimes {
 
 /// Everything that is reported of a run.
 struct RunReport {
-    RunReport(const Options& o, const Scene& s, int t) : options(o), scene(s), threads(t) {}
+    RunReport(const Options& o, const Scene& s, const RayTracer& r, int t)
+        : options(o), scene(s), ray_tracer(r), threads(t) {}
 
     const Options& options;
     const Scene& scene;
+    const RayTracer& ray_tracer;
     int threads = 1;
     PhaseTimes seconds;
     RenderStatistics statistics;

@@ -1,8 +1,12 @@
 #include "surroundings.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <initializer_list>
+#include <numbers>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <lightcuts/core/invalid_input.hpp>
 #include <lightcuts/source/environment.hpp>
@@ -34,17 +38,32 @@ void add_environment(Scene& scene, Picture map, const std::string& name, const O
     scene.background.environment = std::move(environment);
 }
 
+/// How many lights of the power of one of the sky's make up the ground's: a light that comes or goes at the edge of a
+/// shadow then is as large a step, whichever it is.
+std::size_t ground_light_count(const lightcuts::SunSky& daylight,
+                               const std::vector<lightcuts::DistantLight<>>& of_sky) {
+    const double power = 2.0 * std::numbers::pi * lightcuts::channel_sum(daylight.ground_radiance());
+    if (of_sky.empty() || power == 0.0) return 0;
+    const double ratio = power / lightcuts::channel_sum(of_sky.front().intensity);
+    return std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(ratio)));
+}
+
 void add_daylight(Scene& scene, const Options& options) {
-    const lightcuts::SunSky daylight({static_cast<double>(options.sun_sky->elevation),
-                                      static_cast<double>(options.sun_sky->azimuth),
-                                      static_cast<double>(options.turbidity)});
+    const lightcuts::SunSky daylight(
+        {static_cast<double>(options.sun_sky->elevation), static_cast<double>(options.sun_sky->azimuth),
+         static_cast<double>(options.turbidity)},
+        glm::vec3(options.ground));
     const auto of_sun = lightcuts::sun_lights(daylight, sun_disc_lights, lightcuts::LowDiscrepancy{options.seed});
     const auto of_sky = lightcuts::sky_lights(daylight, options.sky_lights, sky_rows,
                                               lightcuts::CentredNumbers{options.seed});
     scene.directional.insert(scene.directional.end(), of_sun.begin(), of_sun.end());
     scene.directional.insert(scene.directional.end(), of_sky.begin(), of_sky.end());
+    const auto of_ground = lightcuts::ground_lights(daylight, ground_light_count(daylight, of_sky),
+                                                    lightcuts::CentredNumbers{options.seed});
+    scene.directional.insert(scene.directional.end(), of_ground.begin(), of_ground.end());
     scene.sun_lights += of_sun.size();
     scene.sky_lights += of_sky.size();
+    scene.ground_lights += of_ground.size();
     scene.background.daylight = daylight;
 }
 
@@ -77,6 +96,7 @@ void add_surroundings(Scene& scene, Options& options) {
     } else {
         own.environment.reset();
     }
+    if (own.ground && !options.is_given("--ground")) options.ground = *own.ground;
     if (!options.is_given("--indirect")) options.indirect = own.indirect;
     if (own.clamp && !options.is_given("--clamp") && !options.is_given("--clamp-ratio")) {
         options.clamp = {.radiance = *own.clamp};
@@ -92,7 +112,7 @@ void add_surroundings(Scene& scene, Options& options) {
     if (options.sun_sky) {
         add_daylight(scene, options);
     } else {
-        refuse_given(options, {"--turbidity", "--sky-lights"}, "--sun-sky");
+        refuse_given(options, {"--turbidity", "--sky-lights", "--ground"}, "--sun-sky");
     }
     refuse_idle_clamp(options);
 }

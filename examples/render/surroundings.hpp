@@ -9,7 +9,8 @@ namespace render {
 /// does, and sets those of the options that have not been given to what was used.
 ///
 /// A latitude-longitude map becomes background, and distant lights of equal power. Preetham's sun and clear sky become
-/// background, 64 distant lights for the sun's disc, and others of equal power for the sky.
+/// background, 64 distant lights for the sun's disc, and others of equal power for the sky and for the ground below the
+/// horizon, which sun and sky light.
 /// throws: invalid_input naming the map, and its pixel that is negative or not finite; also if all are black or it is
 /// not twice as wide as high; usage_error if an option says more of a map or a sky that there is not,
 /// or how to clamp virtual lights that the method does not clamp.

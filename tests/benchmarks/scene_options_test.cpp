@@ -20,12 +20,13 @@ TEST(SceneOptions, AreTheRenderersDefaultsWithoutAnyInTheName) {
 
 TEST(SceneOptions, ComeFromTheName) {
     const render::Options options = scene_options(
-        "room.glb?area-points=7&indirect=1000&sun-sky=35,120&clamp=0.5&materials=diffuse&seed=3", 16);
+        "room.glb?area-points=7&indirect=1000&sun-sky=35,120&ground=0.5&clamp=0.5&materials=diffuse&seed=3", 16);
     EXPECT_EQ(options.scene, "room.glb");
     EXPECT_EQ(options.area_points, 7u);
     EXPECT_EQ(options.indirect, 1000u);
     ASSERT_TRUE(options.sun_sky);
     EXPECT_EQ(options.sun_sky->azimuth, 120.0f);
+    EXPECT_EQ(options.ground, 0.5f);
     EXPECT_EQ(options.clamp.radiance, 0.5f);
     EXPECT_FALSE(options.clamp.is_automatic());
     EXPECT_TRUE(options.diffuse_materials);

@@ -91,6 +91,8 @@ TEST(Colonnade, StandsInSunAndSkyAndAsksForIndirectLight) {
     ASSERT_TRUE(options.sun_sky.has_value());
     EXPECT_EQ(s.sun_lights, 64u);
     EXPECT_EQ(s.sky_lights, 5000u);
+    EXPECT_EQ(s.ground_lights, 0u) << "it has ground of its own";
+    EXPECT_EQ(options.ground, 0.0f);
     EXPECT_EQ(options.indirect, 20'000u);
     EXPECT_EQ(options.clamp.radiance, 0.5f);
     EXPECT_FALSE(options.clamp.is_automatic());
@@ -110,8 +112,11 @@ TEST(Colonnade, IsLitAsTheUserSays) {
     options.turbidity = 7.0f;
     options.sky_lights = 100;
     options.indirect = 0;
-    options.given = {"--turbidity", "--sky-lights", "--indirect", "--clamp"};
+    options.ground = 0.3f;
+    options.given = {"--turbidity", "--sky-lights", "--ground", "--indirect", "--clamp"};
     const Scene hazy = lit("colonnade", options);
+    EXPECT_GT(hazy.ground_lights, 0u);
+    EXPECT_EQ(options.ground, 0.3f);
     EXPECT_TRUE(options.clamp.is_automatic());
     EXPECT_EQ(hazy.sky_lights, 100u);
     EXPECT_EQ(options.turbidity, 7.0f);

@@ -99,6 +99,7 @@ TEST_F(Resume, RefusesAnotherPictureAndSaysWhatDiffers) {
     expect_refusal(fewer.replace(fewer.find("300 "), 4, "10 "), "the lights");
     expect_refusal(large + "--aov depth", "--aov (none, now depth)");
     expect_refusal(large + "--up 1,1,0", "the camera");
+    expect_refusal(large + "--isa sse2", "the ray tracer (");
     const std::string scene = folder.read("room.obj"), materials = folder.read("room.mtl");
     folder.write("room.mtl", "newmtl grey\nKd 0.5 0.4 0.31\nnewmtl lamp\nKd 0 0 0\nKe 20 20 10\n");
     expect_refusal(large, "by the scene's materials;");

@@ -134,7 +134,7 @@ TEST_F(Surroundings, ReadRadiancePictures) {
 TEST_F(Surroundings, HaveASunAtItsElevationAndAzimuth) {
     const lightcuts::SunSky daylight({30.0, 90.0, 4.0});
     // From a wall in the plane x = 0 the sun is at 30 degrees; the sky adds what a wall sees of it.
-    const std::string sun = " --sun-sky 30,90 --turbidity 4 --size 4x4 --target 0,0,0 --method exhaustive ";
+    const std::string sun = " --sun-sky 30,90 --turbidity 4 --ground 0 --size 4x4 --target 0,0,0 --method exhaustive ";
     const Picture front = rendered("wall.obj --sky-lights 0 --eye 5,0,0" + sun);
     const Picture behind = rendered("wall.obj --sky-lights 0 --eye -5,0,0" + sun);
     const Picture with_sky = rendered("wall.obj --eye 5,0,0" + sun);
@@ -165,13 +165,51 @@ TEST_F(Surroundings, HaveASunAtItsElevationAndAzimuth) {
 
     // What is seen: half up to the zenith, into the sun, below the horizon.
     const auto look = [&](const std::string& target) {
-        return rendered("white.obj --sun-sky 30,90 --turbidity 4 --size 1x1 --fov 0.01 --eye 0,5,0 --target " + target)
+        return rendered(
+                   "white.obj --sun-sky 30,90 --turbidity 4 --ground 0 --size 1x1 --fov 0.01 --eye 0,5,0 --target " +
+                   target)
             .pixels[0];
     };
     const glm::vec3 away = look("-3,8,0"), seen = daylight.radiance(glm::normalize(glm::dvec3(-1, 1, 0)));
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(away[c] / seen[c], 1.0f, 1e-4f);
     EXPECT_GT(look("8.6602540,10,0").g, 1000.0f * away.g);
     EXPECT_EQ(look("20,4,0"), glm::vec3(0.0f));
+}
+
+TEST_F(Surroundings, HaveGroundThatLightsFromBelowAsItIsSeen) {
+    const lightcuts::SunSky daylight({40.0, 130.0, 3.0}, glm::vec3(0.5f));
+    const std::string sun = "white.obj --sun-sky 40,130 --size 4x4 --method exhaustive ";
+    const std::string below = "--eye 0,-3,0.1 --target 0,0,0 ", above = "--eye 0,3,0.1 --target 0,0,0 ";
+    // What looks down on the ground is as bright as it, being white.
+    for (const glm::vec3& pixel : rendered(sun + below + "--ground 0.5").pixels) {
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(pixel[c] / daylight.ground_radiance()[c], 1.0f, 1e-3f);
+    }
+    const auto lights = report("render.json").at("lights");
+    EXPECT_EQ(lights.at("sky"), 5000);
+    EXPECT_EQ(lights.at("directional"), 0);
+    EXPECT_FLOAT_EQ(report("render.json").at("options").at("ground").get<float>(), 0.5f);
+    // Each of its lights has the power of one of the sky's.
+    double sky = 0.0;
+    for (const auto& light : lightcuts::sky_lights(daylight, 5000)) sky += lightcuts::channel_sum(light.intensity);
+    const double ground = 2.0 * std::numbers::pi * lightcuts::channel_sum(daylight.ground_radiance());
+    EXPECT_NEAR(lights.at("ground").get<double>() / (5000.0 * ground / sky), 1.0, 1e-3);
+
+    for (const glm::vec3& pixel :
+         rendered(sun + "--ground 0.5 --fov 20 --eye 0,-1,0 --target 3,-9,1 --sky-lights 100").pixels) {
+        EXPECT_EQ(pixel, daylight.ground_radiance());
+    }
+    // What looks up sees none of it.
+    const Picture with = rendered(sun + above);
+    EXPECT_FLOAT_EQ(report("render.json").at("options").at("ground").get<float>(), 0.2f);
+    EXPECT_GT(report("render.json").at("lights").at("ground"), 1000);
+    const Picture without = rendered(sun + above + "--ground 0");
+    EXPECT_EQ(report("render.json").at("lights").at("ground"), 0);
+    for (std::size_t i = 0; i < with.size(); ++i) {
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(with.pixels[i][c] / without.pixels[i][c], 1.0f, 1e-6f);
+    }
+    for (const glm::vec3& pixel : rendered(sun + below + "--ground 0").pixels) EXPECT_EQ(pixel, glm::vec3(0.0f));
+    // Like the sky, it is only seen if it has no lights.
+    for (const glm::vec3& pixel : rendered(sun + below + "--sky-lights 0").pixels) EXPECT_EQ(pixel, glm::vec3(0.0f));
 }
 
 TEST_F(Surroundings, RefuseBadInputInOneLine) {
@@ -212,6 +250,11 @@ TEST_F(Surroundings, RefuseBadInputInOneLine) {
         {"--sun-sky 30,0 --turbidity 1", 2, "--turbidity"},
         {"--turbidity 3", 2, "--sun-sky"},
         {"--sky-lights 3", 2, "--sun-sky"},
+        {"--ground 0.3", 2, "--sun-sky"},
+        {"--env good.exr --ground 0.3", 2, "--sun-sky"},
+        {"--sun-sky 30,0 --ground 1.1", 2, "--ground"},
+        {"--sun-sky 30,0 --ground -0.1", 2, "--ground"},
+        {"--sun-sky 30,0 --ground nan", 2, "--ground"},
         {"--env-lights 9", 2, "--env"},
         {"--env-scale 2", 2, "--env"},
         {"--env-rotate 2", 2, "--env"},

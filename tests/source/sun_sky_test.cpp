@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <numbers>
 #include <string>
@@ -177,6 +179,102 @@ TEST(SkyLights, KeepTheSkysPower) {
     ASSERT_EQ(lights.size(), 5000u);
     for (int i = 0; i < 3; ++i) EXPECT_NEAR(sum_of(lights)[i] / truth[i], 1.0, 1e-3);
     for (const auto& l : lights) EXPECT_LT(l.direction.y, 0.0f) << "from above";
+}
+
+constexpr V grass(0.1f, 0.3f, 0.05f);
+
+/// Irradiance on a plane with the unit normal.
+glm::dvec3 irradiance(const std::vector<DistantLight<>>& lights, const glm::dvec3& normal) {
+    glm::dvec3 sum(0.0);
+    for (const auto& l : lights) {
+        sum += glm::dvec3(l.intensity) * std::max(0.0, -glm::dot(glm::dvec3(l.direction), normal));
+    }
+    return sum;
+}
+
+void expect_near_relative(const glm::dvec3& value, const glm::dvec3& expected, double allowed) {
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(value[c], expected[c], allowed * expected[c]) << c;
+}
+
+TEST(SkyIrradiance, IsTheIntegralOfRadiance) {
+    for (const double turbidity : {2.0, 3.0, 10.0}) {
+        for (const double elevation : {0.0, 20.0, 90.0}) {
+            const SunSky daylight({elevation, 77.0, turbidity});
+            glm::dvec3 truth(0.0);  // midpoints of elevation and azimuth
+            constexpr int rings = 600, steps = 600;
+            for (int i = 0; i < rings; ++i) {
+                const double up = 90.0 * (i + 0.5) / rings, radians = up * pi / 180.0;
+                for (int j = 0; j < steps; ++j) {
+                    truth += glm::dvec3(daylight.sky_radiance(direction(up, 360.0 * (j + 0.5) / steps))) *
+                             (std::sin(radians) * std::cos(radians) * (pi / 2 / rings) * (2 * pi / steps));
+                }
+            }
+            SCOPED_TRACE(testing::Message() << turbidity << " " << elevation);
+            expect_near_relative(glm::dvec3(daylight.sky_irradiance()), truth, 1.1e-4);
+            expect_near_relative(irradiance(sky_lights(daylight, 5000), {0, 1, 0}), truth, 1e-2);
+        }
+    }
+}
+
+TEST(Ground, ReflectsSunAndSky) {
+    const SunSky daylight({35.0, 20.0, 3.0}, grass);
+    const glm::dvec3 level = glm::dvec3(daylight.sun_irradiance()) * std::sin(35.0 * pi / 180.0) +
+                             glm::dvec3(daylight.sky_irradiance());
+    expect_near_relative(glm::dvec3(daylight.ground_radiance()), glm::dvec3(grass) * level / pi, 1e-5);
+    // It is seen everywhere below the horizon and nowhere above.
+    const SunSky bare({35.0, 20.0, 3.0});
+    EXPECT_EQ(bare.ground_radiance(), V(0.0f));
+    for (double around = 0.0; around < 360.0; around += 40.0) {
+        for (const double down : {0.0, 1e-3, 1.0, 40.0, 90.0}) {
+            EXPECT_EQ(daylight.radiance(direction(-down, around)), daylight.ground_radiance());
+            EXPECT_EQ(bare.radiance(direction(-down, around)), V(0.0f));
+            EXPECT_EQ(daylight.sky_radiance(direction(-down, around)), V(0.0f));
+        }
+        for (const double up : {1e-3, 1.0, 35.0, 90.0}) {
+            EXPECT_EQ(daylight.radiance(direction(up, around)), bare.radiance(direction(up, around)));
+        }
+    }
+    EXPECT_GT(bare.radiance(bare.towards_sun()).x, 1000.0f);
+}
+
+TEST(GroundLights, AreTheGroundThatIsSeen) {
+    const SunSky daylight({35.0, 20.0, 3.0}, grass);
+    const glm::dvec3 radiance(daylight.ground_radiance());
+    for (const std::size_t count : {1u, 7u, 100u, 5000u}) {
+        SCOPED_TRACE(count);
+        const auto lights = ground_lights(daylight, count, CentredNumbers{count});
+        ASSERT_EQ(lights.size(), count);
+        for (const auto& l : lights) {
+            EXPECT_GT(l.direction.y, 0.0f) << "from below";
+            EXPECT_NEAR(glm::length(l.direction), 1.0f, 1e-6f);
+            EXPECT_EQ(l.intensity, lights.front().intensity);
+        }
+        expect_near_relative(sum_of(lights), radiance * 2.0 * pi, 1e-5);
+        expect_near_relative(irradiance(lights, {0, -1, 0}), radiance * pi, 1e-4);
+        // A plane that looks up gets the same as without ground.
+        EXPECT_EQ(irradiance(lights, {0, 1, 0}), glm::dvec3(0.0));
+    }
+    // Walls on all sides get half of what a ceiling gets.
+    const auto lights = ground_lights(daylight, 1000);
+    for (double around = 0.0; around < 360.0; around += 15.0) {
+        expect_near_relative(irradiance(lights, direction(0.0, around)), radiance * (pi / 2.0), 0.01);
+    }
+    EXPECT_TRUE(ground_lights(daylight, 0).empty());
+}
+
+TEST(Ground, HasAnAlbedoFromBlackToWhite) {
+    const auto refused = [](const V& albedo) {
+        try {
+            const SunSky daylight({45.0, 0.0, 3.0}, albedo);
+        } catch (const invalid_input& e) { return std::string(e.what()); }
+        return std::string();
+    };
+    using testing::HasSubstr;
+    EXPECT_EQ(refused(V(1.0f)), "");
+    EXPECT_EQ(refused(V(0.0f)), "");
+    EXPECT_THAT(refused({0.2f, 1.1f, 0.2f}), HasSubstr("albedo 1.100000 is not in 0 to 1"));
+    EXPECT_THAT(refused({-0.1f, 0.2f, 0.2f}), HasSubstr("albedo -0.100000"));
+    EXPECT_THAT(refused(V(std::numeric_limits<float>::quiet_NaN())), HasSubstr("albedo"));
 }
 
 std::string refusal(const SunPosition& position) {

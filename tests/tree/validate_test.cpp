@@ -1,11 +1,14 @@
 #include <lightcuts/tree/validate.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include <lightcuts/light/omni.hpp>
+#include <lightcuts/tree/light_tree.hpp>
 #include <lightcuts/tree/summary.hpp>
 
 #include "tree/item_sets.hpp"
@@ -38,6 +41,34 @@ TEST(Validate, NamesTheFirstNodeThatIsWrong) {
     EXPECT_EQ(message({leaf(1), leaf(1), 0}), "cluster tree, node 1: item 1 occurs twice");
     EXPECT_EQ(message({leaf(0), leaf(1), 1}), "cluster tree, node 2: its first leaf is node 0, not 1");
     EXPECT_EQ(message({leaf(0), leaf(1), leaf(2), 0, 0}), "cluster tree, node 3: its first leaf is node 1, not 0");
+}
+
+TEST(Validate, AcceptsTreesOfSomeOfTheItems) {
+    const auto message = [](const std::vector<std::uint32_t>& words, std::size_t bound) {
+        return refusal([&] { validate(ClusterTree(words, bound)); });
+    };
+    EXPECT_EQ(message({leaf(0), leaf(2), 0}, 3), "");
+    EXPECT_EQ(message({leaf(7)}, 1000), "");
+    EXPECT_EQ(message({leaf(0), leaf(3), 0}, 3), "cluster tree, node 1: item 3 is out of range");
+    EXPECT_EQ(message({leaf(2), leaf(2), 0}, 3), "cluster tree, node 1: item 2 occurs twice");
+}
+
+TEST(Validate, AcceptsLightTreesWithDarkLights) {
+    for (unsigned lit = 0; lit < 32; ++lit) {
+        std::vector<OmniLight<>> lights(5);
+        for (unsigned i = 0; i < lights.size(); ++i) {
+            lights[i].position = {static_cast<float>(i), static_cast<float>(i * i), 0.0f};
+            lights[i].intensity = glm::vec3((lit >> i & 1u) != 0 ? 1.0f : 0.0f);
+        }
+        const LightTree tree(lights);
+        EXPECT_EQ(refusal([&] { validate(tree.topology()); }), "") << lit;
+        EXPECT_LE(tree.topology().item_bound(), lights.size());
+        const auto sums = summarize(
+            tree.topology(), [&](std::uint32_t light) { return lights[light].position.x; },
+            [](float a, float b) { return a + b; });
+        const auto agrees = [](float sum, float left, float right) { return sum == left + right; };
+        EXPECT_EQ(refusal([&] { validate(tree.topology(), sums, agrees); }), "") << lit;
+    }
 }
 
 TEST(Validate, AnUnfinishedTreeIsRefused) {

@@ -18,7 +18,9 @@ namespace lightcuts {
 
 /// A visibility oracle over an Embree scene of opaque geometry (version 3 or 4). Refers to the scene, which must be
 /// committed and outlive it. Safe to call from several threads.
-/// `many` traces incoherent streams with Embree 3; version 4 has no streams, and rays go one by one.
+/// Give the scene the flag RTC_SCENE_FLAG_ROBUST: without it, rays that meet an edge may slip between its two
+/// triangles, and light leaks through closed walls in lines. Rays take somewhat longer for it. `many` traces incoherent
+/// streams with Embree 3; version 4 has no streams, and rays go one by one.
 class EmbreeOracle {
 public:
     /// `shorten`: the fraction of a shadow ray left out at the light's end, so that lights that lie on a surface are

@@ -9,7 +9,8 @@
 
 namespace lightcuts {
 
-/// The topology of a binary tree over the items 0 .. N-1, in post-order in one flat array of 2N-1 words.
+/// The topology of a binary tree over N items, in post-order in one flat array of 2N-1 words. The items are 0 .. N-1,
+/// or N of more: the topology of a light tree calls lights by their indices and leaves out those that are dark.
 ///
 ///          6            left_leaf(6) = 0
 ///        /   \          right child of 6 is 5, left child is left_leaf(5)-1 = 2
@@ -31,7 +32,10 @@ public:
 
     /// Takes the words of a post-order array: `leaf_word(item)` for a leaf, else the index of the subtree's first
     /// leaf. pre: the array is a valid tree (`validate` checks).
-    explicit ClusterTree(std::vector<std::uint32_t> words) : words_(std::move(words)) {}
+    explicit ClusterTree(std::vector<std::uint32_t> words) : words_(std::move(words)), item_bound_(item_count()) {}
+    /// The same over some of the items 0 .. item_bound-1.
+    ClusterTree(std::vector<std::uint32_t> words, std::size_t item_bound)
+        : words_(std::move(words)), item_bound_(item_bound) {}
 
     static constexpr std::uint32_t leaf_word(std::uint32_t item) { return item | leaf_bit; }
 
@@ -39,6 +43,8 @@ public:
     std::size_t size() const { return words_.size(); }
     bool empty() const { return words_.empty(); }
     std::size_t item_count() const { return (words_.size() + 1) / 2; }
+    /// All items are below it: N, or more if some are left out.
+    std::size_t item_bound() const { return item_bound_; }
 
     /// pre: not empty.
     node_index root() const { return static_cast<node_index>(words_.size() - 1); }
@@ -72,6 +78,7 @@ public:
 private:
     static constexpr std::uint32_t leaf_bit = 0x8000'0000u;
     std::vector<std::uint32_t> words_;
+    std::size_t item_bound_ = 0;
 };
 
 }  // namespace lightcuts

@@ -110,6 +110,7 @@ public:
     /// True if no light is lit.
     bool empty() const { return tree_.empty(); }
     std::span<const L> lights() const { return lights_; }
+    /// Its items are indices of lights.
     const ClusterTree& topology() const { return tree_; }
     std::span<const cluster> clusters() const { return clusters_; }
     const Representatives& representatives() const { return representatives_; }
@@ -197,16 +198,16 @@ private:
             }
         }
         tree_ = builder(std::span<const Item>(items), execute);
-        if (!light_of.empty()) tree_ = relabelled(tree_, light_of);
+        if (!light_of.empty()) tree_ = relabelled(tree_, light_of, lights_.size());
     }
 
-    /// The same tree with item i called `names[i]`.
-    static ClusterTree relabelled(const ClusterTree& tree, const std::vector<std::uint32_t>& names) {
+    /// The same tree with item i called `names[i]`, all of which are below `bound`.
+    static ClusterTree relabelled(const ClusterTree& tree, const std::vector<std::uint32_t>& names, std::size_t bound) {
         std::vector<std::uint32_t> words = tree.words();
         for (node_index n = 0; n < tree.size(); ++n) {
             if (tree.is_leaf(n)) words[n] = ClusterTree::leaf_word(names[tree.item(n)]);
         }
-        return ClusterTree(std::move(words));
+        return ClusterTree(std::move(words), bound);
     }
 
     std::span<const L> lights_;

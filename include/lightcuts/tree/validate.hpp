@@ -10,8 +10,9 @@
 
 namespace lightcuts {
 
-/// Checks that `tree` is a post-order tree in which every item occurs exactly once.
-/// throws: invalid_input naming the first node that is wrong. cost: O(N).
+/// Checks that `tree` is a post-order tree in which no item occurs twice and all are below `tree.item_bound()`; as long
+/// as that is their number, every item occurs exactly once.
+/// throws: invalid_input naming the first node that is wrong. cost: O(item_bound).
 inline void validate(const ClusterTree& tree) {
     const auto refuse = [](std::size_t node, const std::string& what) {
         throw invalid_input("cluster tree, node " + std::to_string(node) + ": " + what);
@@ -22,7 +23,7 @@ inline void validate(const ClusterTree& tree) {
         throw invalid_input("cluster tree: a binary tree has an odd number of nodes, not " +
                             std::to_string(words.size()));
     }
-    std::vector<bool> seen(tree.item_count(), false);
+    std::vector<bool> seen(tree.item_bound(), false);
     std::vector<std::uint32_t> first_leaves;  // of the complete subtrees so far, left to right
     for (ClusterTree::node_index n = 0; n < words.size(); ++n) {
         if (tree.is_leaf(n)) {
