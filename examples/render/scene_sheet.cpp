@@ -9,6 +9,7 @@
 #include <lightcuts/core/invalid_input.hpp>
 #include <nlohmann/json.hpp>
 
+#include "escape.hpp"
 #include "text_file.hpp"
 #include "view.hpp"
 
@@ -51,7 +52,7 @@ struct Place {
             const auto has = [&](const auto& list) {
                 return std::find(list.begin(), list.end(), item.key()) != list.end();
             };
-            if (!(has(lists) || ...)) fail("unknown key '" + item.key() + "'; correct or remove it");
+            if (!(has(lists) || ...)) fail("unknown key '" + excerpt(item.key()) + "'; correct or remove it");
         }
     }
 

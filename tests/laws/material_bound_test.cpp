@@ -86,6 +86,17 @@ TEST(MaterialBound, DominatesGgx) {
     }
 }
 
+TEST(MaterialBound, DominatesGgxOfAnyGrazingReflectance) {
+    for (const float alpha : roughnesses) {
+        SCOPED_TRACE(alpha);
+        EXPECT_EQ(0, violations(23, [alpha](const Surface& s, Numbers& numbers) {
+                      const auto f90 = static_cast<float>(numbers.uniform());
+                      const float f0 = numbers.below(3) == 0 ? f90 : 0.5f * f90 * static_cast<float>(numbers.uniform());
+                      return Ggx{s.normal, s.view, f0, alpha, numbers.below(10) == 0 ? f0 : f90};
+                  }));
+    }
+}
+
 TEST(MaterialBound, DominatesSeparableGgx) {
     for (const float alpha : roughnesses) {
         SCOPED_TRACE(alpha);

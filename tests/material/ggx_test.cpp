@@ -90,6 +90,26 @@ TEST(Ggx, TreatsChannelsAlike) {
     }
 }
 
+TEST(Ggx, OfLessAtGrazingAnglesIsASmallerShareOfAnother) {
+    // F0 + (F90 - F0) w is F90 times what F0 / F90 and 1 give.
+    Numbers numbers(5);
+    for (const float alpha : {0.01f, 0.3f}) {
+        for (int i = 0; i < 5000; ++i) {
+            const Surface s = material_test::random_surface(numbers);
+            const OffsetBox box = material_test::random_box(numbers, s);
+            const glm::vec3 o = material_test::unit(numbers.direction());
+            const Ggx less{s.normal, s.view, 0.1f, alpha, 0.4f};
+            const Ggx whole{s.normal, s.view, 0.25f, alpha};
+            EXPECT_NEAR(less.evaluate(o), 0.4f * whole.evaluate(o), 1e-5f * less.evaluate(o));
+            EXPECT_NEAR(less.upper_bound(box), 0.4f * whole.upper_bound(box), 1e-5f * less.upper_bound(box));
+            EXPECT_NEAR(quick_bound(less, box), 0.4f * quick_bound(whole, box), 1e-5f * quick_bound(less, box));
+            EXPECT_NEAR(material_test::value_in_lane(less, o), 0.4f * material_test::value_in_lane(whole, o),
+                        1e-5f * less.evaluate(o) + 1e-30f);
+        }
+    }
+    EXPECT_EQ(0.0f, (Ggx{up, view_at(0.5f), 0.0f, 0.3f, 0.0f}.evaluate(view_at(0.3f))));
+}
+
 TEST(Ggx, IsBlackFromBelowAndForLightsBelow) {
     const OffsetBox around{{-1, -1, -1}, {1, 1, 1}};
     const Ggx below{up, glm::vec3(0.6f, 0.0f, -0.8f), 0.5f, 0.3f};
