@@ -37,10 +37,11 @@ class Ggx {
 public:
     /// `normal`, `view` (towards the viewer): unit; `f0`: reflectance at normal incidence, in [0, 1]; `alpha`:
     /// roughness (glTF's roughness squared), >= 0; what is below 1e-6 counts as that; `f90`: reflectance at grazing
-    /// incidence, raised to the largest channel of `f0` if it is below that. A view from below the surface makes a black
-    /// material.
+    /// incidence, raised to the largest channel of `f0` if it is below that. A view from below the surface makes a
+    /// black material.
     Ggx(const glm::vec3& normal, const glm::vec3& view, const S& f0, float alpha, float f90 = 1.0f)
-        : frame_(normal, view), alpha2_(detail::squared_roughness(alpha)), f0_(f0), f90_(detail::larger(f90, channel_max(f0))) {
+        : frame_(normal, view), alpha2_(detail::squared_roughness(alpha)), f0_(f0),
+          f90_(detail::larger(f90, channel_max(f0))) {
         root_view_ = root(frame_.cos_view());
     }
 
