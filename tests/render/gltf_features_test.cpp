@@ -388,6 +388,13 @@ TEST(GltfUri, IsDecodedAsUrisAre) {
     Textured file({{0, 0, 0}});
     file.file.json["images"][0]["uri"] = "data:image/png;base64," + std::string(100000, '!');
     EXPECT_LT(refusal([&] { file.file.load(); }).size(), 200u);
+    // Nor is what cannot be a name.
+    file.file.json["images"][0]["uri"] = std::string(100000, '!');
+    EXPECT_LT(refusal([&] { file.file.load(); }).size(), 250u);
+    file.file.json["images"][0]["uri"] = "a%0Ab%00c.png";
+    EXPECT_THAT(refusal([&] { file.file.load(); }), AllOf(HasSubstr("'a%0Ab%00c.png'"), Not(HasSubstr("\n"))));
+    file.file.json["images"][0]["uri"] = "a%0Ab.png";
+    EXPECT_THAT(refusal([&] { file.file.load(); }), AllOf(HasSubstr("'a%0Ab.png'"), Not(HasSubstr("\n"))));
 }
 
 TEST(GltfNormalMap, BendsTheShadingNormal) {

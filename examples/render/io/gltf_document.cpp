@@ -31,6 +31,9 @@ constexpr std::array<std::string_view, 13> supported_extensions{"EXT_mesh_gpu_in
                                                                 "KHR_texture_transform",
                                                                 "KHR_xmp_json_ld"};  // says nothing of the picture
 
+/// Bytes of a path that a system takes.
+constexpr std::size_t longest_name = 4096;
+
 /// What a picture shows instead.
 struct Substitute {
     std::string_view extension;
@@ -193,10 +196,11 @@ JsonObject GltfDocument::element(const char* key, std::size_t index, const std::
 std::string GltfDocument::resource(const std::string& uri) const {
     if (!is_data_uri(uri)) {
         const std::string name = percent_decoded(uri);
-        if (name.find('\0') != std::string::npos) {
+        const auto path = files_.find(folder_, name);
+        if (!path && excerpt(name, longest_name) != name) {
             throw invalid_input("the URI '" + excerpt(uri) + "' is not the name of a file; correct it");
         }
-        return files_.read(files_.find(folder_, name).value_or(folder_ / name));
+        return files_.read(path.value_or(folder_ / name));
     }
     auto data = data_of_uri(uri);
     if (!data) throw invalid_input("a data URI is damaged; export the file again");
