@@ -39,16 +39,28 @@ void quick_bounds(const Policy& policy, const M& material, const glm::vec3& poin
     }
 }
 
+/// `multiply_bounds` where a product may be no number.
+template <Spectrum S>
+[[gnu::noinline]] constexpr S multiply_infinite_bounds(const S& a, const S& b) {
+    return make_spectrum<S>([&](int c) {
+        const float x = channel(a, c), y = channel(b, c);
+        return x > 0.0f && y > 0.0f ? x * y : 0.0f;
+    });
+}
+
 /// Channel-wise product of two bounds, where 0 x infinity = 0.
 template <Spectrum S>
 constexpr S multiply_bounds(const S& a, const S& b) {
     const S product = a * b;
     const float sum = rough_sum(product);
-    if (sum == sum) return product;
-    return make_spectrum<S>([&](int c) {
-        const float x = channel(a, c), y = channel(b, c);
-        return x > 0.0f && y > 0.0f ? x * y : 0.0f;
-    });
+    if (sum == sum) [[likely]] return product;
+    return multiply_infinite_bounds(a, b);
+}
+
+/// `scale_bound` by a factor that float cannot hold.
+template <Spectrum S>
+[[gnu::noinline]] constexpr S scale_infinite_bound(const S& s, float factor) {
+    return make_spectrum<S>([&](int c) { return channel(s, c) > 0.0f ? channel(s, c) * factor : 0.0f; });
 }
 
 /// spectrum x bound, where 0 x infinity = 0.
@@ -57,8 +69,8 @@ constexpr S scale_bound(const S& s, float bound) {
     // Covers rounding to float here and in products with it, and axes of nearly unit length.
     constexpr float slack = 1.0f + 1.2e-5f;
     const float factor = bound * slack;
-    if (factor <= std::numeric_limits<float>::max()) return s * factor;
-    return make_spectrum<S>([&](int c) { return channel(s, c) > 0.0f ? channel(s, c) * factor : 0.0f; });
+    if (factor <= std::numeric_limits<float>::max()) [[likely]] return s * factor;
+    return scale_infinite_bound(s, factor);
 }
 template <Spectrum S>
 constexpr S scale_bound(const S& s, double bound) {

@@ -18,6 +18,11 @@ struct OffsetBlock {
     alignas(32) Lanes half[3];    ///< of the edges
     alignas(32) Lanes farthest2;  ///< upper bound of the squared distance
     alignas(32) Lanes inverse;    ///< 1 / least distance; infinite if that is zero or out of float's range
+    /// All boxes are so far for their size that the largest product over the least distance is nearly a maximum.
+    bool is_far;
+
+    /// Of a box that counts as far, half of the diagonal over the least distance.
+    static constexpr float far_half_diagonal = 0.25f;
 
     /// pre: 0 <= lane < lane_count
     void set(int lane, const glm::vec3& low, const glm::vec3& high) {
@@ -40,6 +45,7 @@ struct OffsetBlock {
                 hi.x[k][i] = high + 1e-6f * detail::magnitude(high);
             }
         }
+        alignas(32) Lanes nearness;
         for (int i = 0; i < lane_count; ++i) {
             const float x = detail::larger(detail::magnitude(centre[0][i]) - half[0][i], 0.0f);
             const float y = detail::larger(detail::magnitude(centre[1][i]) - half[1][i], 0.0f);
@@ -52,7 +58,12 @@ struct OffsetBlock {
             const bool in_range = detail::smaller(d2 - 1e-30f, 1e34f - farthest2[i]) > 0.0f;
             inverse[i] = detail::select(in_range, detail::inverse_sqrt(d2) * 1.000001f,
                                         std::numeric_limits<float>::infinity());
+            const float half2 = half[0][i] * half[0][i] + half[1][i] * half[1][i] + half[2][i] * half[2][i];
+            nearness[i] = half2 - far_half_diagonal * far_half_diagonal * d2;
         }
+        float nearest = nearness[0];
+        for (int i = 1; i < lane_count; ++i) nearest = detail::larger(nearest, nearness[i]);
+        is_far = nearest < 0.0f;
     }
 };
 
@@ -146,8 +157,10 @@ void lane_power(const LaneVectors& v, const LaneSupport& s, const OffsetBlock& b
         // From the left, since the powers alone would be denormal far away.
         best[i] = K == 1 ? most * inverse : K == 2 ? most * inverse * inverse : most * inverse * inverse * inverse;
     }
-    certify<K>(v, b, step, best);
-    certify<K>(v, b, step, best);
+    if (!b.is_far) {
+        certify<K>(v, b, step, best);
+        certify<K>(v, b, step, best);
+    }
     for (int i = 0; i < lane_count; ++i) {
         constexpr float largest = std::numeric_limits<float>::max(), infinity = std::numeric_limits<float>::infinity();
         const float inverse = b.inverse[i];

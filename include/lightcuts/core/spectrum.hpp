@@ -131,17 +131,27 @@ constexpr S finite(const S& s) {
     });
 }
 
-/// Channel-wise a * b for a, b >= 0, with 0 * infinity = 0 and no channel above the largest float.
+namespace detail {
+
+/// `finite_product` where a product exceeds the largest float or is no number.
 template <Spectrum S>
-constexpr S finite_product(const S& a, const S& b) {
-    const S product = a * b;
-    if (detail::rough_sum(product) <= std::numeric_limits<float>::max()) return product;
+[[gnu::noinline]] constexpr S saturated_product(const S& a, const S& b) {
     return make_spectrum<S>([&](int i) {
         constexpr float largest = std::numeric_limits<float>::max();
         const float x = channel(a, i), y = channel(b, i);
         if (!(x > 0.0f && y > 0.0f)) return 0.0f;
         return x * y < largest ? x * y : largest;
     });
+}
+
+}  // namespace detail
+
+/// Channel-wise a * b for a, b >= 0, with 0 * infinity = 0 and no channel above the largest float.
+template <Spectrum S>
+constexpr S finite_product(const S& a, const S& b) {
+    const S product = a * b;
+    if (detail::rough_sum(product) <= std::numeric_limits<float>::max()) [[likely]] return product;
+    return detail::saturated_product(a, b);
 }
 
 }  // namespace lightcuts

@@ -52,6 +52,13 @@ public:
         return count;
     }
 
+    /// Number of clusters that the trees propose to start with.
+    std::size_t start_count() const {
+        std::size_t count = 0;
+        for_each([&](std::uint32_t, const auto& tree) { count += tree.start().size(); });
+        return count;
+    }
+
     /// Number of lit lights: the largest cut.
     std::size_t light_count() const {
         std::size_t count = 0;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "../core/assertion.hpp"
+#include "../core/reusable_list.hpp"
 #include "lightcut_problem.hpp"
 
 namespace lightcuts {
@@ -34,11 +35,12 @@ template <Spectrum S, bool Clamps = false>
 struct LightcutScratch {
     struct Slot {
         Refinement<CutNode<S, Clamps>> refinement;
-        CutTotals<S, Clamps> totals;
+        detail::RunningTotal<S, Clamps> total;
+        std::uint32_t queries = 0;
         bool running = false;
     };
     std::vector<Slot> slots;
-    std::vector<VisibilityQuery> queries;
+    ReusableList<VisibilityQuery> queries;
     std::vector<float> answers;
     std::vector<S> tints;  ///< answers that are spectra
 };
@@ -60,85 +62,46 @@ RefinementOptions refinement_options(const Forest& forest, const LightcutOptions
     return refinement;
 }
 
+/// The estimate and its error bound from a cut as it is.
 template <Spectrum S, bool Clamps>
-CutResult<S> cut_result_of(const Refinement<CutNode<S, Clamps>>& refinement, std::uint32_t queries,
-                           const ChannelSums<S>& radiance, const ChannelSums<S>& bound) {
-    CutResult<S> result;
-    result.radiance = finite(make_spectrum<S>([&](int c) { return radiance[static_cast<std::size_t>(c)]; }));
-    result.error_bound = make_spectrum<S>([&](int c) { return round_up(bound[static_cast<std::size_t>(c)]); });
-    result.cut_size = static_cast<std::uint32_t>(refinement.size());
-    result.queries = queries;
-    result.stop = refinement.stop_reason();
-    return result;
-}
-
-/// The total of a cut as it is, under its own threshold.
-template <Spectrum S>
-ClampedTotal<S> clamped_total(const Refinement<CutNode<S, true>>& refinement, const CutTotals<S, true>& totals) {
-    const ClampOptions& clamp = totals.clamp.options;
-    // Converged refinements have found it, unless they had lights in mind which did not arrive.
-    const bool is_found = refinement.stop_reason() == StopReason::converged && totals.clamp.is_final;
-    if (!clamp.is_automatic() || is_found) { return {totals.total, totals.clamp.threshold, totals.clamp.ratio}; }
-    return clamped_total<S>(clamp, {}, totals.total, 1e-6, [&](auto&& f) {
-        refinement.for_each([&](const auto& n) { f(n.estimate, static_cast<double>(n.lights)); });
-    });
-}
-
-/// How many clamped lights arrive: those that were looked at for certain, and others where there are bounds.
-template <Spectrum S>
-ArrivingLights<S> arriving_lights(const Refinement<CutNode<S, true>>& refinement, const ClampOptions& clamp) {
-    ArrivingLights<S> arriving{LightCount<S>(clamp), LightCount<S>(clamp)};
-    bool known = false, most_known = false;
-    refinement.for_each([&](const CutNode<S, true>& n) {
-        if (known || !(n.lights < std::numeric_limits<float>::infinity())) return;
-        const bool single = n.lights == 1.0f;
-        if (!most_known) {
-            arriving.most.add(single ? n.estimate : n.bound, static_cast<double>(n.lights));
-            most_known = arriving.most.is_known();
+CutResult<S> cut_result(const Refinement<CutNode<S, Clamps>>& refinement, const RunningTotal<S, Clamps>& total,
+                        std::uint32_t queries) {
+    ChannelSums<S> radiance{}, bound{}, threshold{};
+    if constexpr (Clamps) {
+        const CutClamping<S>& clamping = total.clamping();
+        const ClampedTotal<S> clamped = clamping.final_total(refinement, total.total());
+        threshold = clamped.threshold;
+        if (clamping.is_automatic()) {
+            radiance = clamped.total;
+            bound = clamping.error(refinement, clamped);
+        } else {
+            refinement.for_each([&](const CutNode<S, true>& n) {
+                for (std::size_t c = 0; c < radiance.size(); ++c) {
+                    const double most = static_cast<double>(n.lights) * threshold[c];
+                    const double e = static_cast<double>(channel(n.estimate, static_cast<int>(c)));
+                    const double b = static_cast<double>(channel(n.bound, static_cast<int>(c)));
+                    radiance[c] += e > most ? most : e;
+                    bound[c] += b > most ? most : b;
+                }
+            });
         }
-        if (single || n.all_channels) {
-            arriving.least.add(n.estimate, 1.0);
-            known = arriving.least.is_known();
-        }
-    });
-    return arriving;
-}
-
-template <Spectrum S>
-CutResult<S> cut_result(const Refinement<CutNode<S>>& refinement, const CutTotals<S>& totals) {
-    typename CutTotals<S>::Sums radiance{}, bound{};
-    refinement.for_each([&](const CutNode<S>& n) {
-        for (int c = 0; c < channels_of<S>; ++c) {
-            radiance[static_cast<std::size_t>(c)] += static_cast<double>(channel(n.estimate, c));
-            bound[static_cast<std::size_t>(c)] += static_cast<double>(channel(n.bound, c));
-        }
-    });
-    return cut_result_of(refinement, totals.queries, radiance, bound);
-}
-
-template <Spectrum S>
-CutResult<S> cut_result(const Refinement<CutNode<S, true>>& refinement, const CutTotals<S, true>& totals) {
-    const ClampOptions& clamp = totals.clamp.options;
-    const ClampedTotal<S> clamped = clamped_total(refinement, totals);
-    ChannelSums<S> radiance{}, bound{};
-    if (clamp.is_automatic()) {
-        radiance = clamped.total;
-        bound = clamped_error<S>(clamp, clamped, arriving_lights(refinement, clamp), [&](auto&& f) {
-            refinement.for_each([&](const auto& n) { f(n.estimate, n.bound, static_cast<double>(n.lights)); });
-        });
     } else {
-        refinement.for_each([&](const CutNode<S, true>& n) {
+        refinement.for_each([&](const CutNode<S>& n) {
             for (std::size_t c = 0; c < radiance.size(); ++c) {
-                const double most = static_cast<double>(n.lights) * clamped.threshold[c];
-                const double e = static_cast<double>(channel(n.estimate, static_cast<int>(c)));
-                const double b = static_cast<double>(channel(n.bound, static_cast<int>(c)));
-                radiance[c] += e > most ? most : e;
-                bound[c] += b > most ? most : b;
+                radiance[c] += static_cast<double>(channel(n.estimate, static_cast<int>(c)));
+                bound[c] += static_cast<double>(channel(n.bound, static_cast<int>(c)));
             }
         });
     }
-    CutResult<S> result = cut_result_of(refinement, totals.queries, radiance, bound);
-    result.clamp_threshold = make_spectrum<S>([&](int c) { return clamped.threshold[static_cast<std::size_t>(c)]; });
+    CutResult<S> result;
+    result.radiance = finite(make_spectrum<S>([&](int c) { return radiance[static_cast<std::size_t>(c)]; }));
+    result.error_bound = make_spectrum<S>([&](int c) { return round_up(bound[static_cast<std::size_t>(c)]); });
+    if constexpr (Clamps) {
+        result.clamp_threshold = make_spectrum<S>([&](int c) { return threshold[static_cast<std::size_t>(c)]; });
+    }
+    result.cut_size = static_cast<std::uint32_t>(refinement.size());
+    result.queries = queries;
+    result.stop = refinement.stop_reason();
     return result;
 }
 
@@ -183,7 +146,7 @@ public:
     }
 
     /// The estimate from the cut as it is.
-    CutResult<S> result() const { return detail::cut_result(refinement_, totals_); }
+    CutResult<S> result() const { return detail::cut_result(refinement_, total_, query_count_); }
 
     /// Calls `f(node)` for each CutNode of the cut, in no particular order.
     template <class F>
@@ -193,15 +156,15 @@ public:
 
 private:
     auto problem() {
-        return LightcutProblem<Forest, R, Oracle, Policy>(forest_, receiver_, oracle_, policy_, options_, totals_,
-                                                          queries_);
+        return LightcutProblem<Forest, R, Oracle, Policy>(forest_, receiver_, oracle_, policy_, options_, total_,
+                                                          query_count_, queries_);
     }
 
     template <class P>
     void evaluate_fresh(P& p) {
         if constexpr (detail::AnswersMany<Oracle, S>) {
             p.request(refinement_.fresh());
-            p.receive(refinement_.fresh(), detail::ask_many(oracle_, queries_, answers_));
+            p.receive(refinement_.fresh(), detail::ask_many(oracle_, std::span(queries_.data(), queries_.size()), answers_));
             queries_.clear();
         } else {
             p.evaluate(refinement_.fresh());
@@ -216,8 +179,9 @@ private:
     Policy policy_;
     RefinementOptions refinement_options_;
     Refinement<CutNode<S, Forest::clamps>> refinement_;
-    CutTotals<S, Forest::clamps> totals_;
-    std::vector<VisibilityQuery> queries_;
+    detail::RunningTotal<S, Forest::clamps> total_;
+    std::uint32_t query_count_ = 0;
+    ReusableList<VisibilityQuery> queries_;
     std::vector<detail::many_answer<Oracle, S>> answers_;
 };
 
@@ -237,9 +201,9 @@ void shade_one_by_one(const Forest& forest, std::span<const Receiver<M>> receive
     auto& slot = scratch.slots.front();
     for (std::size_t i = 0; i < receivers.size(); ++i) {
         LightcutProblem<Forest, Receiver<M>, Oracle, Policy> problem(forest, receivers[i], oracle, policy, options,
-                                                                     slot.totals, scratch.queries);
+                                                                     slot.total, slot.queries, scratch.queries);
         slot.refinement.run(problem, refinement);
-        results[i] = cut_result(slot.refinement, slot.totals);
+        results[i] = cut_result(slot.refinement, slot.total, slot.queries);
     }
 }
 
@@ -252,7 +216,7 @@ void shade_in_lock_step(const Forest& forest, std::span<const Receiver<M>> recei
     const RefinementOptions refinement = refinement_options(forest, options);
     const auto problem_of = [&](std::size_t i, auto& slot) {
         return LightcutProblem<Forest, Receiver<M>, Oracle, Policy>(forest, receivers[i], oracle, policy, options,
-                                                                    slot.totals, scratch.queries);
+                                                                    slot.total, slot.queries, scratch.queries);
     };
     if (scratch.slots.size() < receivers.size()) scratch.slots.resize(receivers.size());
     scratch.queries.clear();
@@ -265,7 +229,7 @@ void shade_in_lock_step(const Forest& forest, std::span<const Receiver<M>> recei
     }
     for (bool any = !receivers.empty(); any;) {
         // Step 1: one stream of shadow rays for all receivers.
-        auto answers = ask_many(oracle, scratch.queries, answers_for<Oracle, S>(scratch));
+        auto answers = ask_many(oracle, std::span(scratch.queries.data(), scratch.queries.size()), answers_for<Oracle, S>(scratch));
         scratch.queries.clear();
         // Step 2: each takes its answers, in the order of its queries, and asks the next.
         any = false;
@@ -280,7 +244,7 @@ void shade_in_lock_step(const Forest& forest, std::span<const Receiver<M>> recei
                 problem.request(slot.refinement.fresh());
                 any = true;
             } else {
-                results[i] = cut_result(slot.refinement, slot.totals);
+                results[i] = cut_result(slot.refinement, slot.total, slot.queries);
             }
         }
     }

@@ -1,11 +1,10 @@
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 
-#include "strata.hpp"
+#include "stratum_problem.hpp"
 
 namespace lightcuts {
 
@@ -30,27 +29,6 @@ double distance_deviation(const LightCluster<L>& cluster, const glm::vec3& point
     return nearest > 0.0 ? (farthest - nearest) / std::sqrt(3.0 * nearest * farthest) : infinity;
 }
 
-/// A node as a stratum, with what to split it for: its importance x its relative deviation, or 0 if that is not above
-/// the threshold.
-template <class S, class Tree>
-typename EstimateScratch<S>::Stratum stratum_of(const Tree& tree, std::uint32_t kind, std::uint32_t node,
-                                                const Importance& importance, const glm::vec3& point,
-                                                double threshold) {
-    typename EstimateScratch<S>::Stratum stratum{node, kind, tree.topology().is_leaf(node), importance, 0.0};
-    if (stratum.leaf) return stratum;
-    const double deviation = distance_deviation(tree.clusters()[node], point);
-    if (deviation > threshold) stratum.priority = importance.expected * deviation;
-    return stratum;
-}
-
-/// True if `b` is to be split before `a`; of those of infinite importance the one of larger irradiance.
-template <class Stratum>
-bool is_split_later(const Stratum& a, const Stratum& b) {
-    if (a.priority != b.priority) return a.priority < b.priority;
-    if (a.importance.irradiance != b.importance.irradiance) return a.importance.irradiance < b.importance.irradiance;
-    return a.kind != b.kind ? a.kind > b.kind : a.node > b.node;
-}
-
 }  // namespace detail
 
 /// Estimates the sum over all lights by descending into *both* children of every node whose relative deviation is above
@@ -67,30 +45,12 @@ Estimate<forest_spectrum<Lights>> adaptive_splitting(const Lights& lights, const
                                                      EstimateScratch<forest_spectrum<Lights>>& scratch,
                                                      const Policy& policy = {}) {
     const auto& forest = as_forest(lights);
-    using S = forest_spectrum<Lights>;
-    using Stratum = typename EstimateScratch<S>::Stratum;
     const auto least = static_cast<double>(threshold);
-    auto& heap = scratch.strata;
-    heap.clear();
-    const auto add = [&](const auto& tree, std::uint32_t kind, std::uint32_t node, const Importance& importance) {
-        if (importance.is_zero()) return;
-        heap.push_back(detail::stratum_of<S>(tree, kind, node, importance, receiver.position, least));
-        std::push_heap(heap.begin(), heap.end(), detail::is_split_later<Stratum>);
+    const auto priority_of = [&](const auto& tree, std::uint32_t node, const Importance& importance) {
+        const double deviation = detail::distance_deviation(tree.clusters()[node], receiver.position);
+        return deviation > least ? importance.expected * deviation : 0.0;
     };
-    const auto roots = detail::root_importances(policy, receiver, forest);
-    forest.for_each([&](std::uint32_t kind, const auto& tree) {
-        if (!tree.empty()) add(tree, kind, tree.topology().root(), roots[kind]);
-    });
-    while (!heap.empty() && heap.size() < samples && heap.front().priority > 0.0) {
-        std::pop_heap(heap.begin(), heap.end(), detail::is_split_later<Stratum>);
-        const Stratum parent = heap.back();
-        heap.pop_back();
-        forest.visit(parent.kind, [&](const auto& tree) {
-            const auto children = detail::child_importances(policy, receiver, tree, parent.node);
-            add(tree, parent.kind, tree.topology().left(parent.node), children[0]);
-            add(tree, parent.kind, tree.topology().right(parent.node), children[1]);
-        });
-    }
+    detail::choose_strata(forest, receiver, policy, priority_of, {.max_nodes = samples, .round_fraction = 1.0}, scratch);
     detail::draw_from_strata(forest, receiver, policy, samples, seed, scratch);
     return detail::estimate_draws(forest, receiver, oracle, scratch);
 }

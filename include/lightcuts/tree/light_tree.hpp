@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -114,6 +115,9 @@ public:
     const ClusterTree& topology() const { return tree_; }
     std::span<const cluster> clusters() const { return clusters_; }
     const Representatives& representatives() const { return representatives_; }
+    /// A cut of the whole tree of at most 32 clusters of about equal power, from which to refine: nearly every cut lies
+    /// below it. Neighbors stand side by side.
+    std::span<const node_index> start() const { return start_; }
 
     /// Bytes held, not counting the caller's lights.
     std::size_t memory_bytes() const {
@@ -122,6 +126,8 @@ public:
     }
 
 private:
+    static constexpr std::size_t start_size = 32;
+
     using Item = std::conditional_t<cluster::oriented, OrientedItem, PointItem>;
 
     [[noreturn]] static void reject(std::size_t index, const char* what) {
@@ -151,6 +157,27 @@ private:
             for (const double s : sum) weights[n] += s;
         }
         representatives_ = Representatives(tree_, weights, options_.representatives, options_.seed);
+        start_ = equal_power_cut(weights);
+    }
+
+    /// Splits the strongest cluster as long as there are few.
+    std::vector<node_index> equal_power_cut(std::span<const double> powers) const {
+        std::vector<node_index> cut;
+        if (tree_.empty()) return cut;
+        cut.push_back(tree_.root());
+        const auto is_weaker = [&](node_index a, node_index b) {
+            if (tree_.is_leaf(a) != tree_.is_leaf(b)) return tree_.is_leaf(a);
+            return powers[a] != powers[b] ? powers[a] < powers[b] : a > b;
+        };
+        while (cut.size() < start_size) {
+            const auto strongest = std::max_element(cut.begin(), cut.end(), is_weaker);
+            const node_index n = *strongest;
+            if (tree_.is_leaf(n)) break;
+            *strongest = tree_.right(n);
+            cut.push_back(tree_.left(n));
+        }
+        std::sort(cut.begin(), cut.end());
+        return cut;
     }
 
     static Item checked_item(const L& light, std::size_t index) {
@@ -215,6 +242,7 @@ private:
     ClusterTree tree_;
     std::vector<cluster> clusters_;
     Representatives representatives_;
+    std::vector<node_index> start_;
 };
 
 template <class L>

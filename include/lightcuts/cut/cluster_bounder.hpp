@@ -1,0 +1,130 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "../bound/policy.hpp"
+#include "../core/assertion.hpp"
+#include "../visibility/lit_side.hpp"
+#include "../visibility/oracle.hpp"
+#include "cut_node.hpp"
+#include "forest.hpp"
+#include "../core/reusable_list.hpp"
+#include "refinement.hpp"
+
+namespace lightcuts::detail {
+
+/// Replaces bounds that nodes have inherited from their parents by the clusters' own, where a node is about to be
+/// split. Most clusters on a final cut never need one.
+template <class Forest, class R, class Oracle, class Policy>
+class ClusterBounder {
+public:
+    using S = typename Forest::spectrum;
+    using Node = CutNode<S, Forest::clamps>;
+
+    ClusterBounder(const Forest& forest, const R& receiver, const Oracle& oracle, const Policy& policy,
+                   double threshold)
+        : forest_(forest), receiver_(receiver), oracle_(oracle), policy_(policy), threshold_(threshold) {}
+
+    /// `priority(node)`: after the bound has changed.
+    template <class Priority>
+    void tighten(ReusableList<Node>& frontier, std::span<RefinementCandidate> candidates, const Priority& priority) const {
+        forest_.for_each([&](std::uint32_t kind, const auto& tree) {
+            if (tree.empty()) return;
+            std::array<RefinementCandidate*, lane_count> members;
+            std::size_t count = 0;
+            for (RefinementCandidate& candidate : candidates) {
+                const Node& n = frontier[candidate.at];
+                if (n.bounded || n.kind != kind) continue;
+                members[count++] = &candidate;
+                if (count < members.size()) continue;
+                bound(tree, frontier, std::span(members), priority);
+                count = 0;
+            }
+            if (count > 0) bound(tree, frontier, std::span(members).first(count), priority);
+        });
+    }
+
+private:
+    template <class Tree, class Priority>
+    void bound(const Tree& tree, ReusableList<Node>& frontier, std::span<RefinementCandidate* const> candidates,
+               const Priority& priority) const {
+        using Cluster = typename Tree::cluster;
+        using Surface = std::remove_cvref_t<decltype(R::material)>;
+        static_assert(BoundPolicy<Policy, Surface, Cluster>,
+                      "a bound policy needs quick(material, cluster, point) const, which returns the material's "
+                      "spectrum");
+        std::array<const Cluster*, lane_count> clusters;
+        std::array<S, lane_count> units;
+        const std::size_t count = candidates.size();
+        for (std::size_t i = 0; i < count; ++i) clusters[i] = &tree.clusters()[frontier[candidates[i]->at].node];
+        quick_bounds(policy_, receiver_.material, receiver_.position, clusters.data(), count, units.data());
+        for (std::size_t i = 0; i < count; ++i) {
+            Node& n = frontier[candidates[i]->at];
+            LIGHTCUTS_ASSERT(dominates(units[i], n.terms) &&
+                             "a bound is below what evaluate() returns: do both include the cosine?");
+            lower_bound(n, units[i], *clusters[i]);
+            n.bounded = true;
+            candidates[i]->priority = priority(n);
+        }
+        if constexpr (TwoStagePolicy<Policy>) {
+            // The tight bound is computed only where it can change the decision.
+            for (std::size_t i = 0; policy_.doubt > 1.0 && i < count; ++i) {
+                Node& n = frontier[candidates[i]->at];
+                double& p = candidates[i]->priority;
+                if (p > threshold_ && p < policy_.doubt * threshold_) {
+                    lower_bound(n, policy_.tight(receiver_.material, *clusters[i], receiver_.position), *clusters[i]);
+                    p = priority(n);
+                }
+            }
+        }
+        if constexpr (BoundedOracle<Oracle, R, typename Tree::light_type>) {
+            for (std::size_t i = 0; i < count; ++i) {
+                if (!(candidates[i]->priority > threshold_)) continue;
+                apply_visibility_bound(frontier[candidates[i]->at], *clusters[i]);
+                candidates[i]->priority = priority(frontier[candidates[i]->at]);
+            }
+        }
+    }
+
+    /// True unless a representative's terms exceed a bound of them by more than rounding.
+    static bool dominates(const S& unit, const S& terms) {
+        for (int c = 0; c < channels_of<S>; ++c) {
+            if (channel(terms, c) > 1.0001f * channel(unit, c)) return false;
+        }
+        return true;
+    }
+
+    template <class Cluster>
+    static void lower_bound(Node& n, const S& unit, const Cluster& cluster) {
+        n.unit_bound = make_spectrum<S>([&](int c) {
+            const float a = channel(n.unit_bound, c), b = channel(unit, c);
+            return b < a ? b : a;
+        });
+        n.bound = multiply_bounds(n.unit_bound, cluster.intensity);
+    }
+
+    /// Scales a cluster's bound by what the oracle knows to be the most that is visible of it.
+    template <class Cluster>
+    void apply_visibility_bound(Node& n, const Cluster& cluster) const {
+        const place_box<typename Cluster::light_type> box{cluster.box};
+        auto visible = static_cast<float>(oracle_.upper_bound(receiver_, box));
+        if constexpr (R::two_sided) {
+            const auto behind = static_cast<float>(oracle_.upper_bound(from_behind(receiver_), box));
+            visible = behind > visible ? behind : visible;
+        }
+        if (visible >= 1.0f) return;
+        const S fraction = make_spectrum<S>([&](int) { return visible; });
+        lower_bound(n, multiply_bounds(n.unit_bound, fraction), cluster);
+    }
+
+    const Forest& forest_;
+    const R& receiver_;
+    const Oracle& oracle_;
+    const Policy& policy_;
+    double threshold_;
+};
+
+}  // namespace lightcuts::detail

@@ -1,0 +1,122 @@
+#pragma once
+
+#include <array>
+#include <concepts>
+#include <cstdint>
+#include <span>
+
+#include "../core/reusable_list.hpp"
+#include "../material/terms.hpp"
+#include "../visibility/lit_side.hpp"
+#include "../visibility/oracle.hpp"
+#include "clamp.hpp"
+#include "cut_node.hpp"
+#include "forest.hpp"
+
+namespace lightcuts::detail {
+
+/// Looks at the representatives of new nodes of one receiver's cut: their terms without shadows, then their shadow
+/// rays, one by one or as queries of a stream.
+template <class Forest, class R, class Oracle>
+class RepresentativeBatch {
+public:
+    using S = typename Forest::spectrum;
+    using Node = CutNode<S, Forest::clamps>;
+
+    RepresentativeBatch(const Forest& forest, const R& receiver, const Oracle& oracle, float most_terms,
+                        ReusableList<VisibilityQuery>& queries)
+        : forest_(forest), receiver_(receiver), oracle_(oracle), most_terms_(most_terms), queries_(queries) {}
+
+    /// Finds the terms of the representatives that are not shared with a parent, shadows apart; a batched oracle's
+    /// queries go to the caller's list. Returns the number of shadow rays.
+    std::uint32_t request(std::span<Node> fresh) const {
+        std::uint32_t rays = 0;
+        for (std::size_t begin = 0; begin < fresh.size();) {
+            if (!fresh[begin].queried) {
+                ++begin;
+                continue;
+            }
+            std::array<Node*, lane_count> members;
+            std::size_t count = 0;
+            const std::uint8_t kind = fresh[begin].kind;
+            for (; begin < fresh.size() && count < members.size() && fresh[begin].kind == kind; ++begin) {
+                if (fresh[begin].queried) members[count++] = &fresh[begin];
+            }
+            forest_.visit(kind, [&](const auto& tree) { rays += request(tree, std::span(members).first(count)); });
+        }
+        return rays;
+    }
+
+    /// Traces the shadow ray of a node that waits for it.
+    void trace(Node& n) const {
+        forest_.visit(n.kind, [&](const auto& tree) {
+            const auto& light = tree.lights()[tree.topology().item(n.representative)];
+            on_lit_side(receiver_, light, [&](const auto& lit) { receive(n, as_factor<S>(oracle_(lit, light))); });
+        });
+    }
+
+    /// Takes the answer to a node's shadow ray: a float or a spectrum.
+    template <class A>
+    static void receive(Node& n, const A& visibility) {
+        if constexpr (std::same_as<A, float>) {
+            if (visibility == 1.0f) return;
+        }
+        n.terms = n.terms * visibility;
+        n.estimate = n.estimate * visibility;
+    }
+
+private:
+    template <class Tree>
+    std::uint32_t request(const Tree& tree, std::span<Node* const> nodes) const {
+        using L = typename Tree::light_type;
+        LightBlock lights;
+        LaneSpectra<S> terms;
+        const auto light_of = [&](int i) -> const L& {
+            return tree.lights()[tree.topology().item(nodes[static_cast<std::size_t>(i)]->representative)];
+        };
+        const int count = static_cast<int>(nodes.size());
+        for (int i = 0; i < count; ++i) {
+            const auto& leaf = tree.clusters()[nodes[static_cast<std::size_t>(i)]->representative];
+            lights.place.set(i, leaf.box.lo);
+            if constexpr (OrientedLight<L>) lights.axis.set(i, leaf.cone.axis);
+        }
+        lights.template finish<L>(count);
+        unshadowed_terms<L>(receiver_, lights, count, light_of, terms);
+        std::uint32_t rays = 0;
+        for (int i = 0; i < count; ++i) {
+            Node& n = *nodes[static_cast<std::size_t>(i)];
+            n.terms = terms[static_cast<std::size_t>(i)];
+            if constexpr (ClampedLight<L>) {
+                n.terms = at_most(n.terms, most_terms_);
+                n.all_channels = channel_min(tree.clusters()[n.representative].intensity) > 0.0f;
+            }
+            n.queried = !is_black(n.terms);
+            if (!n.queried) continue;
+            n.estimate = finite_product(n.terms, tree.clusters()[n.node].intensity);
+            if constexpr (std::same_as<Oracle, AlwaysVisible>) {
+                n.queried = false;
+                continue;
+            }
+            ++rays;
+            if constexpr (AnswersMany<Oracle, S>) {
+                // In place: what is written in pieces is slow to copy at once.
+                VisibilityQuery& query = queries_.append();
+                query.to = lights.place.at(i);
+                query.from = receiver_.shadow_origin_towards(towards<L>(receiver_.position, query.to));
+                query.receiver = receiver_.id;
+                query.light = tree.topology().item(n.representative);
+                query.kind = n.kind;
+                query.distant = DirectionalLight<L>;
+            }
+        }
+        return rays;
+    }
+
+    const Forest& forest_;
+    const R& receiver_;
+    const Oracle& oracle_;
+    float most_terms_;  ///< per unit intensity, of clamped lights
+    ReusableList<VisibilityQuery>& queries_;
+};
+
+}  // namespace lightcuts::detail
