@@ -166,21 +166,21 @@ static_assert(!BoundPolicy<NoQuick, LeastMaterial, LightCluster<LeastLight>>);
 // Refinement problems
 struct LeastProblem {
     using node = int;
-    void roots(std::vector<int>& out) { out.push_back(1); }
+    void roots(ReusableList<int>& out) { out.append(1); }
     void evaluate(std::span<int>) {}
     double priority(int) const { return 0.0; }
     double threshold() const { return 1.0; }
-    void split(int, std::vector<int>&) {}
-    bool before(int a, int b) const { return a < b; }
+    void split(int, ReusableList<int>&) {}
+    bool precedes(int a, int b) const { return a < b; }
 };
-struct NoBefore : LeastProblem {
-    void before() const {}
+struct NoPrecedes : LeastProblem {
+    void precedes() const {}
 };
 struct NoThreshold : LeastProblem {
     void threshold(int) const {}
 };
 static_assert(RefinementProblem<LeastProblem>);
-static_assert(!RefinementProblem<NoBefore> && !RefinementProblem<NoThreshold>);
+static_assert(!RefinementProblem<NoPrecedes> && !RefinementProblem<NoThreshold>);
 
 // Executors
 struct NoCount {

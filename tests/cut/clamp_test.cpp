@@ -25,7 +25,7 @@ static_assert(OrientedLight<VirtualLight<>> && sizeof(VirtualLight<>) == sizeof(
 static_assert(sizeof(LightCluster<VirtualLight<>>) == sizeof(LightCluster<OrientedPointLight<>>));
 static_assert(!LightForest<OrientedPointLight<>>::clamps && LightForest<OrientedPointLight<>, VirtualLight<>>::clamps);
 static_assert(sizeof(CutNode<V>) == 60 && sizeof(CutNode<V, true>) == 64);
-static_assert(sizeof(CutTotals<V>) == 4 * sizeof(CutTotals<V>::Sums) + sizeof(double));
+static_assert(sizeof(detail::RunningTotal<V>) == 4 * sizeof(detail::RunningTotal<V>::Sums));
 static_assert(std::is_same_v<scratch_of<LightTree<OrientedPointLight<>>>, LightcutScratch<V>>);
 static_assert(std::is_same_v<scratch_of<LightTree<VirtualLight<>>>, LightcutScratch<V, true>>);
 

@@ -104,14 +104,13 @@ inline void lane_emission(ClusterBlock& b) {
     if (b.has_emission) return;
     b.has_emission = true;
     const LaneSupport& s = b.axis_support;
-    if (!b.any_cone) {
-        // Largest numerator over least distance. Materials with a cosine lobe use the tighter joint bound instead.
-        for (int i = 0; i < lane_count; ++i) {
-            const float most = larger(s.value[i] + s.noise[i], 0.0f) * b.inverse[i];
-            b.emission[i] = select(s.value[i] <= -s.noise[i], 0.0f, smaller(larger(most * 1.00001f, 1e-37f), 1.0f));
-        }
-        return;
+    // For one direction the largest numerator over the least distance, whatever stands in other lanes. Materials with a
+    // cosine lobe use the tighter joint bound instead.
+    for (int i = 0; i < lane_count; ++i) {
+        const float most = larger(s.value[i] + s.noise[i], 0.0f) * b.inverse[i];
+        b.emission[i] = select(s.value[i] <= -s.noise[i], 0.0f, smaller(larger(most * 1.00001f, 1e-37f), 1.0f));
     }
+    if (!b.any_cone) return;
     alignas(32) Lanes front;
     lane_power<1>(b.axis, s, b, front);
     for (int i = 0; i < lane_count; ++i) {
@@ -126,7 +125,7 @@ inline void lane_emission(ClusterBlock& b) {
         const float wide = cosine * b.cos_cone[i] + sine2 * inverse_sqrt(sine2) * (b.sin_cone[i] + 1e-6f);
         const bool one = b.cos_cone[i] == ClusterBlock::one_direction;
         const float inside = select(cosine >= b.cos_cone[i], 1.0f, smaller(wide * 1.000002f, 1.0f));
-        b.emission[i] = larger(select(one, cosine, inside), 0.0f);
+        b.emission[i] = select(one, b.emission[i], larger(inside, 0.0f));
     }
 }
 

@@ -53,7 +53,8 @@ template <Spectrum S>
 constexpr S multiply_bounds(const S& a, const S& b) {
     const S product = a * b;
     const float sum = rough_sum(product);
-    if (sum == sum) [[likely]] return product;
+    if (sum == sum) [[likely]]
+        return product;
     return multiply_infinite_bounds(a, b);
 }
 
@@ -69,7 +70,8 @@ constexpr S scale_bound(const S& s, float bound) {
     // Covers rounding to float here and in products with it, and axes of nearly unit length.
     constexpr float slack = 1.0f + 1.2e-5f;
     const float factor = bound * slack;
-    if (factor <= std::numeric_limits<float>::max()) [[likely]] return s * factor;
+    if (factor <= std::numeric_limits<float>::max()) [[likely]]
+        return s * factor;
     return scale_infinite_bound(s, factor);
 }
 template <Spectrum S>

@@ -18,8 +18,10 @@ struct OffsetBlock {
     alignas(32) Lanes half[3];    ///< of the edges
     alignas(32) Lanes farthest2;  ///< upper bound of the squared distance
     alignas(32) Lanes inverse;    ///< 1 / least distance; infinite if that is zero or out of float's range
-    /// All boxes are so far for their size that the largest product over the least distance is nearly a maximum.
-    bool is_far;
+    /// Negative for a box that is so far for its size that the largest product over the least distance is nearly a
+    /// maximum. By lane, so that a bound does not depend on what stands beside it.
+    alignas(32) Lanes nearness;
+    bool all_far;
 
     /// Of a box that counts as far, half of the diagonal over the least distance.
     static constexpr float far_half_diagonal = 0.25f;
@@ -45,7 +47,6 @@ struct OffsetBlock {
                 hi.x[k][i] = high + 1e-6f * detail::magnitude(high);
             }
         }
-        alignas(32) Lanes nearness;
         for (int i = 0; i < lane_count; ++i) {
             const float x = detail::larger(detail::magnitude(centre[0][i]) - half[0][i], 0.0f);
             const float y = detail::larger(detail::magnitude(centre[1][i]) - half[1][i], 0.0f);
@@ -63,7 +64,7 @@ struct OffsetBlock {
         }
         float nearest = nearness[0];
         for (int i = 1; i < lane_count; ++i) nearest = detail::larger(nearest, nearness[i]);
-        is_far = nearest < 0.0f;
+        all_far = nearest < 0.0f;
     }
 };
 
@@ -157,9 +158,12 @@ void lane_power(const LaneVectors& v, const LaneSupport& s, const OffsetBlock& b
         // From the left, since the powers alone would be denormal far away.
         best[i] = K == 1 ? most * inverse : K == 2 ? most * inverse * inverse : most * inverse * inverse * inverse;
     }
-    if (!b.is_far) {
-        certify<K>(v, b, step, best);
-        certify<K>(v, b, step, best);
+    if (!b.all_far) {
+        alignas(32) Lanes certified;
+        for (int i = 0; i < lane_count; ++i) certified[i] = best[i];
+        certify<K>(v, b, step, certified);
+        certify<K>(v, b, step, certified);
+        for (int i = 0; i < lane_count; ++i) best[i] = select(b.nearness[i] < 0.0f, best[i], certified[i]);
     }
     for (int i = 0; i < lane_count; ++i) {
         constexpr float largest = std::numeric_limits<float>::max(), infinity = std::numeric_limits<float>::infinity();

@@ -16,7 +16,8 @@ public:
     /// Appends an element of unspecified value and returns it, to be filled in place. References to other elements stay
     /// valid if room was made. cost: amortized constant.
     T& append() {
-        if (size_ == capacity_) [[unlikely]] grow(size_ + 1);
+        if (size_ == capacity_) [[unlikely]]
+            grow(size_ + 1);
         return values_[size_++];
     }
     /// Appends a copy of `value`, which must not lie in this list unless room was made.

@@ -150,7 +150,8 @@ template <Spectrum S>
 template <Spectrum S>
 constexpr S finite_product(const S& a, const S& b) {
     const S product = a * b;
-    if (detail::rough_sum(product) <= std::numeric_limits<float>::max()) [[likely]] return product;
+    if (detail::rough_sum(product) <= std::numeric_limits<float>::max()) [[likely]]
+        return product;
     return detail::saturated_product(a, b);
 }
 

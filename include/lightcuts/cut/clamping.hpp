@@ -30,16 +30,9 @@ public:
         return estimate > most ? most : estimate;
     }
 
-    /// The share of the total that the node's error may reach, `bound_share` if nothing were clamped.
-    double priority(const Node& n, const Sums& weight) const {
-        double largest = 0.0;
-        for (std::size_t c = 0; c < weight.size(); ++c) {
-            const double p = static_cast<double>(channel(n.bound, static_cast<int>(c))) * weight[c];
-            const double most = static_cast<double>(n.lights) * share_[c];
-            const double clamped = p > most ? most : p;
-            largest = clamped > largest ? clamped : largest;
-        }
-        return largest;
+    /// True if the node's lights together may be off by more than `threshold` in channel `c`, as a share of the total.
+    bool may_exceed(const Node& n, std::size_t c, double threshold) const {
+        return static_cast<double>(n.lights) * share_[c] > threshold;
     }
 
     /// Finds the largest share of one light from the weights of bounds. It is known also where the total is not, since
@@ -49,12 +42,12 @@ public:
         for (std::size_t c = 0; c < weight.size(); ++c) {
             const double share = limit * weight[c];
             share_[c] = share < ratio_[c] ? share : ratio_[c];
-            least_share_[c] = share_[c] < least_share_[c] ? share_[c] : least_share_[c];
         }
     }
 
-    void checkpoint() { least_share_ = share_; }
-    double growth(std::size_t c) const { return share_[c] / least_share_[c]; }
+    void checkpoint() { base_share_ = share_; }
+    /// True if shares have changed since `checkpoint`.
+    bool has_other_shares() const { return share_ != base_share_; }
     const Sums& shares() const { return share_; }
     bool is_automatic() const { return options_.is_automatic(); }
 
@@ -111,9 +104,8 @@ private:
     /// Finds the ratio by the lights that have arrived; returns that with those which may yet.
     template <class Visit>
     Sums count_lights(const Visit& visit) {
-        ratio_ = effective_ratios<S>(options_, [&](auto&& f) {
-            visit([&](const Node& n) { f(n.estimate, static_cast<double>(n.lights)); });
-        });
+        ratio_ = effective_ratios<S>(
+            options_, [&](auto&& f) { visit([&](const Node& n) { f(n.estimate, static_cast<double>(n.lights)); }); });
         bool many = true;
         for (const double r : ratio_) many = many && r == static_cast<double>(options_.ratio);
         if (many) return ratio_;
@@ -158,11 +150,11 @@ private:
     }
 
     ClampOptions options_;
-    Sums threshold_{};    ///< radiance: the most that a light adds
-    Sums share_{};        ///< the most that a light's error adds to a priority
-    Sums least_share_{};  ///< least shares since the last checkpoint
-    Sums total_{};        ///< of which the threshold was made
-    Sums ratio_{};        ///< by the lights that have arrived; infinite while there are none
+    Sums threshold_{};       ///< radiance: the most that a light adds
+    Sums share_{};           ///< the most that a light's error adds to a priority
+    Sums base_share_{};      ///< shares at the last checkpoint
+    Sums total_{};           ///< of which the threshold was made
+    Sums ratio_{};           ///< by the lights that have arrived; infinite while there are none
     bool is_final_ = false;  ///< the threshold was made by that ratio, not with others in mind
 };
 

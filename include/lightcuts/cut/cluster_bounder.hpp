@@ -7,11 +7,11 @@
 
 #include "../bound/policy.hpp"
 #include "../core/assertion.hpp"
+#include "../core/reusable_list.hpp"
 #include "../visibility/lit_side.hpp"
 #include "../visibility/oracle.hpp"
 #include "cut_node.hpp"
 #include "forest.hpp"
-#include "../core/reusable_list.hpp"
 #include "refinement.hpp"
 
 namespace lightcuts::detail {
@@ -24,13 +24,13 @@ public:
     using S = typename Forest::spectrum;
     using Node = CutNode<S, Forest::clamps>;
 
-    ClusterBounder(const Forest& forest, const R& receiver, const Oracle& oracle, const Policy& policy,
-                   double threshold)
-        : forest_(forest), receiver_(receiver), oracle_(oracle), policy_(policy), threshold_(threshold) {}
+    ClusterBounder(const Forest& forest, const R& receiver, const Oracle& oracle, const Policy& policy)
+        : forest_(forest), receiver_(receiver), oracle_(oracle), policy_(policy) {}
 
-    /// `priority(node)`: after the bound has changed.
+    /// `priority(node)`: after the bound has changed. `threshold`: of such priorities; nodes below are not split.
     template <class Priority>
-    void tighten(ReusableList<Node>& frontier, std::span<RefinementCandidate> candidates, const Priority& priority) const {
+    void tighten(ReusableList<Node>& frontier, std::span<RefinementCandidate> candidates, const Priority& priority,
+                 double threshold) const {
         forest_.for_each([&](std::uint32_t kind, const auto& tree) {
             if (tree.empty()) return;
             std::array<RefinementCandidate*, lane_count> members;
@@ -40,17 +40,17 @@ public:
                 if (n.bounded || n.kind != kind) continue;
                 members[count++] = &candidate;
                 if (count < members.size()) continue;
-                bound(tree, frontier, std::span(members), priority);
+                bound(tree, frontier, std::span(members), priority, threshold);
                 count = 0;
             }
-            if (count > 0) bound(tree, frontier, std::span(members).first(count), priority);
+            if (count > 0) bound(tree, frontier, std::span(members).first(count), priority, threshold);
         });
     }
 
 private:
     template <class Tree, class Priority>
     void bound(const Tree& tree, ReusableList<Node>& frontier, std::span<RefinementCandidate* const> candidates,
-               const Priority& priority) const {
+               const Priority& priority, double threshold) const {
         using Cluster = typename Tree::cluster;
         using Surface = std::remove_cvref_t<decltype(R::material)>;
         static_assert(BoundPolicy<Policy, Surface, Cluster>,
@@ -74,7 +74,7 @@ private:
             for (std::size_t i = 0; policy_.doubt > 1.0 && i < count; ++i) {
                 Node& n = frontier[candidates[i]->at];
                 double& p = candidates[i]->priority;
-                if (p > threshold_ && p < policy_.doubt * threshold_) {
+                if (p > threshold && p < policy_.doubt * threshold) {
                     lower_bound(n, policy_.tight(receiver_.material, *clusters[i], receiver_.position), *clusters[i]);
                     p = priority(n);
                 }
@@ -82,7 +82,7 @@ private:
         }
         if constexpr (BoundedOracle<Oracle, R, typename Tree::light_type>) {
             for (std::size_t i = 0; i < count; ++i) {
-                if (!(candidates[i]->priority > threshold_)) continue;
+                if (!(candidates[i]->priority > threshold)) continue;
                 apply_visibility_bound(frontier[candidates[i]->at], *clusters[i]);
                 candidates[i]->priority = priority(frontier[candidates[i]->at]);
             }
@@ -124,7 +124,6 @@ private:
     const R& receiver_;
     const Oracle& oracle_;
     const Policy& policy_;
-    double threshold_;
 };
 
 }  // namespace lightcuts::detail

@@ -164,7 +164,8 @@ private:
     void evaluate_fresh(P& p) {
         if constexpr (detail::AnswersMany<Oracle, S>) {
             p.request(refinement_.fresh());
-            p.receive(refinement_.fresh(), detail::ask_many(oracle_, std::span(queries_.data(), queries_.size()), answers_));
+            p.receive(refinement_.fresh(),
+                      detail::ask_many(oracle_, std::span(queries_.data(), queries_.size()), answers_));
             queries_.clear();
         } else {
             p.evaluate(refinement_.fresh());
@@ -229,7 +230,8 @@ void shade_in_lock_step(const Forest& forest, std::span<const Receiver<M>> recei
     }
     for (bool any = !receivers.empty(); any;) {
         // Step 1: one stream of shadow rays for all receivers.
-        auto answers = ask_many(oracle, std::span(scratch.queries.data(), scratch.queries.size()), answers_for<Oracle, S>(scratch));
+        auto answers = ask_many(oracle, std::span(scratch.queries.data(), scratch.queries.size()),
+                                answers_for<Oracle, S>(scratch));
         scratch.queries.clear();
         // Step 2: each takes its answers, in the order of its queries, and asks the next.
         any = false;

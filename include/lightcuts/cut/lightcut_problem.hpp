@@ -40,7 +40,7 @@ public:
         : forest_(forest), options_(options), total_(total), queries_(queries), receiver_id_(receiver.id),
           threshold_(static_cast<double>(options.error_ratio)),
           representatives_(forest, receiver, oracle, options.clamp.terms, query_list),
-          bounder_(forest, receiver, oracle, policy, threshold_) {}
+          bounder_(forest, receiver, oracle, policy) {}
 
     void roots(ReusableList<node>& out) {
         total_.start(options_.clamp);
@@ -75,7 +75,9 @@ public:
     }
 
     void tighten(ReusableList<node>& frontier, std::span<RefinementCandidate> candidates) const {
-        bounder_.tighten(frontier, candidates, [this](const node& n) { return priority(n); });
+        const double threshold = threshold_ / total_.priority_scale();
+        bounder_.tighten(
+            frontier, candidates, [this](const node& n) { return priority(n); }, threshold);
     }
 
     /// Finds the terms of new representatives; a batched oracle's queries go to the caller's list.
@@ -115,7 +117,8 @@ public:
     }
 
     void checkpoint() { total_.checkpoint(); }
-    double priority_growth() const { return total_.priority_growth(); }
+    double priority_scale() const { return total_.priority_scale(); }
+    double priority_spread() const { return total_.priority_spread(); }
     double priority(const node& n) const { return total_.priority(n, threshold_); }
     double threshold() const { return threshold_; }
 

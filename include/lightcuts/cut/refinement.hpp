@@ -43,8 +43,10 @@ struct RefinementCandidate {
 ///   calls f(node) for the whole frontier.
 /// - `revise(visit)`: called when no priority is above the threshold; true if it made some larger, and the engine looks
 ///   again. Must become false.
-/// - `checkpoint()` and `priority_growth()`: the second bounds the factor by which any priority has grown since the
-///   first was called, at least 1. Without them every priority is asked for in every round.
+/// - `checkpoint()`, `priority_scale()`, `priority_spread()`: for priorities that all change by about one factor, as
+///   bounds relative to a total do. `priority` then gives them as they were at the last checkpoint; no priority has
+///   grown since by more than the scale, nor by less than scale / spread. The engine refines by scale, and makes a new
+///   checkpoint where the spread is above 1.02. Without these functions it asks for every priority in every round.
 template <class P>
 concept RefinementProblem = std::copyable<typename P::node> && std::default_initializable<typename P::node> &&
     requires(P p, const P c, typename P::node& n, const typename P::node& m, ReusableList<typename P::node>& out) {
@@ -71,8 +73,7 @@ struct RefinementOptions {
     /// Largest number of nodes in the cut; the starting frontier is kept even if it is larger.
     std::size_t max_nodes = std::numeric_limits<std::size_t>::max();
     /// A round splits nodes down to this fraction of the largest finite priority. 1: one at a time, the order of
-    /// the papers, exactly so for fixed priorities and within a tenth of the priority for others; 0.1: a tenth of the
-    /// rounds for under one per cent more nodes.
+    /// the papers; 0.1: a tenth of the rounds for under one per cent more nodes.
     double round_fraction = 0.1;
 };
 
@@ -95,7 +96,7 @@ public:
         absorbed_ = 0;
         stop_ = StopReason::unfinished;
         problem.roots(nodes_);
-        if constexpr (tells_growth<P>) problem.checkpoint();
+        if constexpr (tells_scale<P>) problem.checkpoint();
     }
 
     /// Goes on with the frontier as it is under other priorities: those of another problem over the same nodes, or of
@@ -103,6 +104,7 @@ public:
     template <RefinementProblem P>
     void reprioritize(P& problem) {
         stop_ = StopReason::unfinished;
+        if constexpr (tells_scale<P>) problem.checkpoint();
         rekey(problem);
     }
 
@@ -183,108 +185,95 @@ public:
     StopReason stop_reason() const { return stop_; }
 
 private:
-    /// Finds the key of a new node: any that is large enough if all keys will be asked for anyway.
+    /// Gives a new node its key.
     template <class P>
     void join(const P& problem, std::uint32_t at) {
-        if (in_heap_) {
-            keys_[at] = key_of(problem, nodes_[at]);
-            push(problem, at);
-        } else {
-            keys_[at] = is_final(problem, nodes_[at]) ? final_node : infinity;
-        }
+        keys_[at] = key_of(problem, nodes_[at]);
+        if (in_heap_) push(problem, at);
     }
 
     /// Fills `chosen_` with what a round would split; false if no priority is above the threshold.
     template <class P>
     bool choose(P& problem, const RefinementOptions& options) {
         const double fraction = options.round_fraction < 1.0 ? options.round_fraction : 1.0;
-        const bool by_heap = FixedPriorityProblem<P> || (tells_growth<P> && fraction > 0.5);
+        double threshold = problem.threshold();
+        bool is_stale = !FixedPriorityProblem<P>;
+        if constexpr (tells_scale<P>) {
+            is_stale = !(problem.priority_spread() <= most_spread);
+            if (is_stale) problem.checkpoint();
+            threshold /= problem.priority_scale();
+        }
+        if (is_stale) rekey(problem);
+        // A heap is cheapest where a round splits few nodes, a look at all where it splits many.
+        const bool by_heap = FixedPriorityProblem<P> || (tells_scale<P> && fraction > 0.5);
         if (by_heap != in_heap_) {
             in_heap_ = by_heap;
-            heap_.clear();
-            if (by_heap) fill_heap(problem);
+            fill_heap(problem);
         }
-        if constexpr (tells_growth<P>) {
-            if (problem.priority_growth() > most_growth) rekey(problem);
-        }
-        return by_heap ? choose_by_heap(problem, fraction) : choose_by_scan(problem, fraction);
+        do {
+            const bool any_left = by_heap ? take_from_heap(problem, fraction, threshold) : scan(fraction, threshold);
+            tighten(problem);
+            keep_top(problem, fraction, threshold);
+            if (chosen_.empty() && !any_left) return false;
+        } while (chosen_.empty());
+        return true;
     }
 
-    /// Looks at all nodes: cheapest where a round splits many of them.
-    template <class P>
-    bool choose_by_scan(P& problem, double fraction) {
-        const double threshold = problem.threshold();
-        double least = 0.0;  // all that are not final
-        if constexpr (tells_growth<P>) least = threshold / problem.priority_growth() * (1.0 - 1e-12);
-        chosen_.clear();
-        double* const keys = keys_.data();
-        const Node* const nodes = nodes_.data();
+    /// Finds the candidates: keys above the threshold that are infinite or not below a fraction of the largest finite
+    /// one. True if others are above the threshold.
+    bool scan(double fraction, double threshold) {
+        const double* const keys = keys_.data();
+        double largest = 0.0;
         for (std::size_t i = 0; i < absorbed_; ++i) {
-            if (tells_growth<P> ? !(keys[i] > least) : keys[i] < least) continue;
-            keys[i] = problem.priority(nodes[i]);
-            if (keys[i] > threshold) chosen_.push_back({static_cast<std::uint32_t>(i), keys[i]});
+            const double key = keys[i] < infinity ? keys[i] : 0.0;
+            largest = key > largest ? key : largest;
         }
-        tighten(problem);
+        const double cutoff = fraction * largest;
+        const bool any_left = cutoff > threshold;
+        chosen_.clear();
+        for (std::size_t i = 0; i < absorbed_; ++i) {
+            if (keys[i] > threshold && keys[i] >= cutoff) chosen_.push_back({static_cast<std::uint32_t>(i), keys[i]});
+        }
+        return any_left;
+    }
+
+    /// The same from the top of the heap; of a problem that tightens a handful at least.
+    template <class P>
+    bool take_from_heap(const P& problem, double fraction, double threshold) {
+        const std::size_t handful = tightens<P> ? 8 : 0;
+        chosen_.clear();
+        double largest = 0.0;
+        while (!heap_.empty()) {
+            const std::uint32_t at = heap_.front();
+            const double key = keys_[at];
+            if (!(key > threshold) || (key < fraction * largest && chosen_.size() >= handful)) break;
+            if (largest == 0.0 && key < infinity) largest = key;
+            pop(problem);
+            chosen_.push_back({at, key});
+        }
+        return !heap_.empty() && keys_[heap_.front()] > threshold;
+    }
+
+    /// Keeps the candidates above the threshold that are infinite or not below a fraction of the largest finite one.
+    template <class P>
+    void keep_top(const P& problem, double fraction, double threshold) {
         double largest = 0.0;
         for (const RefinementCandidate& c : chosen_) {
             if (c.priority < infinity && c.priority > largest) largest = c.priority;
         }
-        const double cutoff = fraction * largest;
-        std::erase_if(chosen_, [&](const RefinementCandidate& c) {
-            return !(c.priority > threshold) || c.priority < cutoff;
-        });
-        return !chosen_.empty();
-    }
-
-    /// Takes nodes from the top of the heap: cheapest where a round splits few of them. Keys may be stale by the growth
-    /// of priorities, which `choose` has limited.
-    template <class P>
-    bool choose_by_heap(P& problem, double fraction) {
-        const double threshold = problem.threshold();
-        for (;;) {
-            chosen_.clear();
-            // Step 1: what may be large enough, and a handful more, which are bounded together as cheaply.
-            constexpr std::size_t handful = 8;
-            double largest = 0.0;
-            while (!heap_.empty()) {
-                const std::uint32_t at = heap_.front();
-                const double key = keys_[at];
-                if (!(key > threshold) || (key < fraction * largest && (!tightens<P> || chosen_.size() >= handful))) {
-                    break;
-                }
-                pop(problem);
-                if constexpr (!FixedPriorityProblem<P>) keys_[at] = problem.priority(nodes_[at]);
-                chosen_.push_back({at, keys_[at]});
-                if (keys_[at] < infinity && keys_[at] > largest) largest = keys_[at];
-            }
-            if (chosen_.empty()) {
-                if constexpr (tells_growth<P>) {
-                    if (problem.priority_growth() > 1.0) {
-                        rekey(problem);
-                        if (!heap_.empty() && keys_[heap_.front()] > threshold) continue;
-                    }
-                }
-                return false;
-            }
-            // Step 2: the rest goes back.
-            tighten(problem);
-            largest = 0.0;
-            for (const RefinementCandidate& c : chosen_) {
-                if (c.priority < infinity && c.priority > largest) largest = c.priority;
-            }
-            if (!heap_.empty() && keys_[heap_.front()] < infinity) largest = std::max(largest, keys_[heap_.front()]);
-            const double cutoff = fraction * largest;
-            std::size_t kept = 0;
-            for (const RefinementCandidate c : chosen_) {
-                if (c.priority > threshold && (c.priority >= cutoff)) {
-                    chosen_[kept++] = c;
-                } else {
-                    push(problem, c.at);
-                }
-            }
-            chosen_.resize(kept);
-            if (kept > 0) return true;
+        if (in_heap_ && !heap_.empty() && keys_[heap_.front()] < infinity) {
+            largest = std::max(largest, keys_[heap_.front()]);
         }
+        const double cutoff = fraction * largest;
+        std::size_t kept = 0;
+        for (const RefinementCandidate& c : chosen_) {
+            if (c.priority > threshold && c.priority >= cutoff) {
+                chosen_[kept++] = c;
+            } else if (in_heap_) {
+                push(problem, c.at);
+            }
+        }
+        chosen_.resize(kept);
     }
 
     template <class P>
@@ -319,11 +308,10 @@ private:
     /// Asks for all priorities again.
     template <class P>
     void rekey(P& problem) {
-        if constexpr (tells_growth<P>) problem.checkpoint();
         for (std::size_t i = 0; i < absorbed_; ++i) {
             if (keys_[i] != hole) keys_[i] = key_of(problem, nodes_[i]);
         }
-        if (in_heap_) fill_heap(problem);
+        fill_heap(problem);
     }
 
     template <class P>
@@ -357,6 +345,7 @@ private:
     template <class P>
     void fill_heap(const P& problem) {
         heap_.clear();
+        if (!in_heap_) return;
         for (std::size_t i = 0; i < absorbed_; ++i) {
             if (keys_[i] >= 0.0) heap_.push_back(static_cast<std::uint32_t>(i));
         }
@@ -364,12 +353,14 @@ private:
     }
 
     template <class P>
-    static constexpr bool tells_growth = requires(P p) {
+    static constexpr bool tells_scale = requires(P p) {
         p.checkpoint();
-        { p.priority_growth() } -> std::convertible_to<double>;
+        { p.priority_scale() } -> std::convertible_to<double>;
+        { p.priority_spread() } -> std::convertible_to<double>;
     };
     template <class P>
-    static constexpr bool tightens = requires(P p, ReusableList<Node>& nodes, std::span<RefinementCandidate> candidates) {
+    static constexpr bool tightens = requires(P p, ReusableList<Node>& nodes,
+                                              std::span<RefinementCandidate> candidates) {
         p.tighten(nodes, candidates);
     };
     template <class P>
@@ -386,10 +377,9 @@ private:
     static constexpr double infinity = std::numeric_limits<double>::infinity();
     static constexpr double final_node = -1.0;  ///< key of a node that can never be refined
     static constexpr double hole = -2.0;        ///< key of a place without a node
-    /// Keys are asked for again once priorities may have grown by this factor.
-    static constexpr double most_growth = 1.1;
+    static constexpr double most_spread = 1.02;
 
-    ReusableList<Node> nodes_;                     ///< the frontier, with holes, and behind it fresh nodes
+    ReusableList<Node> nodes_;                 ///< the frontier, with holes, and behind it fresh nodes
     std::vector<double> keys_;                 ///< of the frontier: priorities as they were when last asked for
     std::vector<std::uint32_t> heap_;          ///< places with keys above zero, ordered by keys, if `in_heap_`
     std::vector<std::uint32_t> holes_;         ///< places whose nodes were refined

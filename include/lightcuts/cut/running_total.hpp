@@ -1,7 +1,7 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
+#include <limits>
 #include <type_traits>
 
 #include "clamping.hpp"
@@ -17,7 +17,7 @@ public:
     using Sums = ChannelSums<S>;
     using Node = CutNode<S, Clamps>;
 
-    /// `threshold`: of priorities. `clamp` is looked at only if `Clamps`.
+    /// `clamp` is looked at only if `Clamps`.
     void start([[maybe_unused]] const ClampOptions& clamp) {
         *this = {};
         weight_.fill(darkest);
@@ -72,36 +72,33 @@ public:
         return grown;
     }
 
+    /// Priorities are those of now until the next time.
     void checkpoint() {
-        least_ = weight_;
+        base_ = weight_;
         if constexpr (Clamps) clamping_.checkpoint();
     }
-    /// Bounds the factor by which any priority has grown since `checkpoint`.
-    double priority_growth() const {
-        double largest = 0.0;
-        const auto grows = [&largest](double factor) {  // NaN: zero or infinite as before
-            largest = factor > largest ? factor : largest;
-        };
-        for (std::size_t c = 0; c < weight_.size(); ++c) {
-            grows(weight_[c] / least_[c]);
-            if constexpr (Clamps) grows(clamping_.growth(c));
+    /// The largest factor by which a priority has changed since `checkpoint`.
+    double priority_scale() const {
+        return extreme_ratio([](double a, double b) { return a > b; });
+    }
+    /// The largest factor over the least one; infinite if priorities follow from another rule now.
+    double priority_spread() const {
+        if constexpr (Clamps) {
+            if (clamping_.has_other_shares()) return std::numeric_limits<double>::infinity();
         }
-        return largest;
+        return priority_scale() / extreme_ratio([](double a, double b) { return a < b; });
     }
 
-    /// What a cluster may be off by, as a share of the total. Clamping decides whether it is refined. In which order is
-    /// decided without: by shares, clusters of most lights would come first, and a limited cut might miss the nearest.
+    /// What a cluster may be off by, as a share of the total at the last checkpoint. A channel in which clamping alone
+    /// keeps the cluster's error below `threshold` does not count.
     double priority(const Node& n, [[maybe_unused]] double threshold) const {
         double largest = 0.0;
-        for (std::size_t c = 0; c < weight_.size(); ++c) {
-            const double p = static_cast<double>(channel(n.bound, static_cast<int>(c))) * weight_[c];
-            largest = p > largest ? p : largest;
-        }
-        if constexpr (Clamps) {
-            if (largest > threshold) {
-                const double clamped = clamping_.priority(n, weight_);
-                return clamped > threshold ? largest : clamped;
+        for (std::size_t c = 0; c < base_.size(); ++c) {
+            if constexpr (Clamps) {
+                if (!clamping_.may_exceed(n, c, threshold)) continue;
             }
+            const double p = static_cast<double>(channel(n.bound, static_cast<int>(c))) * base_[c];
+            largest = p > largest ? p : largest;
         }
         return largest;
     }
@@ -117,6 +114,16 @@ private:
         return static_cast<double>(channel(n.estimate, static_cast<int>(c)));
     }
 
+    template <class Precedes>
+    double extreme_ratio(const Precedes& precedes) const {
+        double extreme = weight_[0] / base_[0];
+        for (std::size_t c = 1; c < weight_.size(); ++c) {
+            const double ratio = weight_[c] / base_[c];
+            extreme = precedes(ratio, extreme) ? ratio : extreme;
+        }
+        return extreme;
+    }
+
     template <class Visit>
     void solve_clamping(const Visit& visit, double tolerance) requires Clamps {
         total_ = clamping_.solve(visit, total_, tolerance);
@@ -128,7 +135,6 @@ private:
             const double reference = total_[c] + adaptation;
             // Against darkness every bound is too large, and larger bounds are refined first.
             weight_[c] = reference * darkest > 1.0 ? 1.0 / reference : darkest;
-            least_[c] = weight_[c] < least_[c] ? weight_[c] : least_[c];
         }
         if constexpr (Clamps) clamping_.update_shares(weight_);
     }
@@ -136,7 +142,7 @@ private:
     Sums total_{};    ///< running sum of the estimates, clamped
     Sums largest_{};  ///< largest running sum since it was last computed afresh
     Sums weight_{};   ///< 1 / (total + adaptation): what turns a bound into a priority
-    Sums least_{};    ///< least weights since the last checkpoint
+    Sums base_{};     ///< weights at the last checkpoint
     [[no_unique_address]] std::conditional_t<Clamps, CutClamping<S>, Absent<ClampingTag>> clamping_{};
 };
 

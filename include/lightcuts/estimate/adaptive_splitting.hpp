@@ -50,7 +50,8 @@ Estimate<forest_spectrum<Lights>> adaptive_splitting(const Lights& lights, const
         const double deviation = detail::distance_deviation(tree.clusters()[node], receiver.position);
         return deviation > least ? importance.expected * deviation : 0.0;
     };
-    detail::choose_strata(forest, receiver, policy, priority_of, {.max_nodes = samples, .round_fraction = 1.0}, scratch);
+    detail::choose_strata(forest, receiver, policy, priority_of, {.max_nodes = samples, .round_fraction = 1.0},
+                          scratch);
     detail::draw_from_strata(forest, receiver, policy, samples, seed, scratch);
     return detail::estimate_draws(forest, receiver, oracle, scratch);
 }

@@ -30,7 +30,9 @@ void draw_from_strata(const Forest& forest, const Receiver<M>& receiver, const P
         for (const auto& s : strata) {
             if (s.kind != kind) continue;
             const double behind = before + weight_of(s);
-            const auto count = 1 + static_cast<std::size_t>(std::floor(behind * rate) - std::floor(before * rate));
+            // By halves, so that rounding loses none of the rest.
+            const auto count = 1 + static_cast<std::size_t>(std::floor(behind * rate + 0.5) -
+                                                            std::floor(before * rate + 0.5));
             before = behind;
             const auto begin = static_cast<std::uint32_t>(scratch.numbers.size());
             add_stratified(scratch.numbers, count,
