@@ -100,6 +100,36 @@ TEST(Agglomerate, IsTheGreedyMethodForLargerSets) {
     }
 }
 
+/// Equally spaced items whose weight falls along the line: the nearest neighbour of each is the next one, so that the
+/// chain from the first leads to the last.
+std::vector<PointItem> strip(std::size_t count) {
+    std::vector<PointItem> items;
+    for (std::size_t i = 0; i < count; ++i) {
+        const float x = static_cast<float>(i) / static_cast<float>(count - 1);
+        items.push_back({{x, 0, 0}, 1.0f + static_cast<float>(count - i) / static_cast<float>(count)});
+    }
+    return items;
+}
+
+TEST(Agglomerate, StepsOfChainsAreLinearInTheNumberOfItems) {
+    Random random(8);
+    std::vector<std::vector<PointItem>> sets{strip(257), strip(4097), strip(20000)};
+    for (int round = 0; round < 20; ++round) sets.push_back(without_axes(random_items(random, 2000).items));
+    for (const std::vector<PointItem>& items : sets) {
+        detail::Agglomerator<false> agglomerator(std::span<const PointItem>(items), 0);
+        NoProgress progress;
+        const ClusterTree tree = agglomerator.build(Sequential{}, progress);
+        EXPECT_NO_THROW(validate(tree));
+        EXPECT_LE(agglomerator.steps(), 11 * (items.size() - 1));
+    }
+}
+
+TEST(Agglomerate, IsTheGreedyMethodWhereChainsAreLong) {
+    for (const std::size_t count : {2u, 3u, 65u, 300u}) {
+        EXPECT_EQ(agglomerate(strip(count)), brute_force<false>(strip(count), 0)) << count;
+    }
+}
+
 TEST(Agglomerate, DoesNotDependOnTheExecutor) {
     Random random(3);
     const std::vector<OrientedItem> items = room_items(random, 3000, 0.1);

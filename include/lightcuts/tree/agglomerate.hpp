@@ -71,6 +71,13 @@ public:
         return merges_.tree();
     }
 
+    /// How many steps all chains took: each goes on to a neighbour, which may have to be sought, or merges two
+    /// clusters. At most 11 (N - 1): a merge takes two clusters from the chain and drops at most short_chain.
+    std::size_t steps() const { return steps_; }
+
+    /// A chain that is longer goes on after a merge.
+    static constexpr std::size_t short_chain = 8;
+
 private:
     static constexpr std::uint32_t none = 0xffff'ffffu;
 
@@ -110,7 +117,10 @@ private:
         link = {best.slot, nodes_[best.slot]};
     }
 
-    /// Follows the chain from each cluster in turn to a pair, and merges it. Halves the number of clusters.
+    /// Follows a chain from each cluster in turn to a pair, and merges it. At least halves the number of clusters.
+    ///
+    /// A long chain goes on after the merge. The rest of a short one is dropped: it is soon walked again, while going
+    /// on would merge clusters again and again in one place, where the neighbor tree then excludes little.
     template <class E>
     void sweep(const E& execute) {
         reorder();
@@ -127,20 +137,25 @@ private:
         std::uint32_t left = count;
         for (std::uint32_t s = 0; s < count && left > 1; ++s) {
             if (moved_[s] != none) continue;
-            std::uint32_t a = s;
-            find_neighbour(tree, a);
-            std::uint32_t b = links_[a].slot;
-            find_neighbour(tree, b);
-            for (std::uint32_t steps = 0; links_[b].slot != a; ++steps) {
-                LIGHTCUTS_ASSERT(steps < left);
-                a = b;
-                b = links_[a].slot;
-                find_neighbour(tree, b);
+            chain_.assign(1, s);
+            bool merged = false;
+            while (!merged || chain_.size() > short_chain) {
+                const std::uint32_t a = chain_.back();
+                find_neighbour(tree, a);
+                ++steps_;
+                const std::uint32_t b = links_[a].slot;
+                if (chain_.size() < 2 || b != chain_[chain_.size() - 2]) {
+                    LIGHTCUTS_ASSERT(chain_.size() < left);
+                    chain_.push_back(b);
+                    continue;
+                }
+                chain_.resize(chain_.size() - 2);
+                join(b, a);
+                tree.replace(b);
+                tree.erase(a);
+                --left;
+                merged = true;
             }
-            join(a, b);
-            tree.replace(a);
-            tree.erase(b);
-            --left;
         }
         compact();
     }
@@ -190,6 +205,9 @@ private:
     std::vector<std::uint32_t> nodes_;
     std::vector<Link> links_;
     std::vector<std::uint32_t> moved_;  ///< the slot that has swallowed this one's cluster, or none
+
+    std::vector<std::uint32_t> chain_;  ///< slots, each but the first the nearest neighbour of the one before
+    std::size_t steps_ = 0;
 
     Merges merges_;
     double direction_;
