@@ -166,6 +166,13 @@ TEST(LightTree, RefusesNumbersOfRepresentativesOutOfRange) {
     EXPECT_NO_THROW(LightTree(lights, {.representatives = 32}));
 }
 
+TEST(LightTree, RefusesTopologiesThatAreNotBinary) {
+    const std::vector<OmniLight<>> lights(3, {V(1.0f), V(1.0f), {}});
+    constexpr auto leaf = ClusterTree::leaf_word;
+    const auto flat = [](const auto&, const auto&) { return ClusterTree({leaf(0), leaf(1), leaf(2), 0}); };
+    EXPECT_THROW(LightTree(lights, {}, flat), invalid_input);
+}
+
 // Lights that moved, turned or dimmed in place: refit knows what a new tree of the same topology would.
 TEST(LightTree, RefitIsAFreshSummary) {
     Room<V> room(5);

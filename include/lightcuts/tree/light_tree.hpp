@@ -198,6 +198,7 @@ private:
             }
         }
         tree_ = builder(std::span<const Item>(items), execute);
+        if (!tree_.is_binary()) throw invalid_input("light tree: its builder made a tree that is not binary");
         if (!light_of.empty()) tree_ = relabelled(tree_, light_of, lights_.size());
     }
 

@@ -31,7 +31,8 @@ inline std::vector<std::uint32_t> depths(const ClusterTree& tree) {
     std::vector<std::uint32_t> depth(tree.size(), 0);
     for (std::size_t k = tree.size(); k-- > 0;) {
         const auto n = static_cast<ClusterTree::node_index>(k);
-        if (!tree.is_leaf(n)) depth[tree.left(n)] = depth[tree.right(n)] = depth[n] + 1;
+        if (!tree.is_leaf(n))
+            tree.for_each_child(n, [&](ClusterTree::node_index child) { depth[child] = depth[n] + 1; });
     }
     return depth;
 }
