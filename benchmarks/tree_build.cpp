@@ -27,8 +27,8 @@
 #include <lightcuts/light/omni.hpp>
 #include <lightcuts/light/oriented.hpp>
 #include <lightcuts/material/lambert.hpp>
-#include <lightcuts/tree/agglomerate.hpp>
-#include <lightcuts/tree/divide.hpp>
+#include <lightcuts/tree/build/agglomerate.hpp>
+#include <lightcuts/tree/build/divide.hpp>
 #include <lightcuts/tree/light_tree.hpp>
 #include <lightcuts/tree/statistics.hpp>
 #include <nlohmann/json.hpp>

@@ -153,7 +153,7 @@ TEST(LightTree, RefusesAxesAndDirectionsThatAreNotUnitVectors) {
         EXPECT_NE(message.find("light 1"), std::string::npos) << bad.x << ' ' << bad.y << ' ' << bad.z;
         EXPECT_NE(message.find("direction"), std::string::npos) << message;
     }
-    // What float normalisation leaves is accepted.
+    // What float normalization leaves is accepted.
     Room<V> room(4);
     EXPECT_EQ(refusal(room.distant(1000)), "");
     EXPECT_EQ(refusal(room.oriented(1000)), "");

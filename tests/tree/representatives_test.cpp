@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include <lightcuts/tree/divide.hpp>
+#include <lightcuts/tree/build/divide.hpp>
 #include <lightcuts/tree/representatives.hpp>
 #include "support/random.hpp"
 #include "support/statistics.hpp"

@@ -11,7 +11,7 @@
 #include <lightcuts/tree/light_tree.hpp>
 #include <lightcuts/tree/summary.hpp>
 
-#include "tree/item_sets.hpp"
+#include "tree/build/item_sets.hpp"
 
 namespace {
 

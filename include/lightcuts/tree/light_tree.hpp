@@ -10,9 +10,9 @@
 
 #include "../core/executor.hpp"
 #include "../core/invalid_input.hpp"
-#include "binned.hpp"
-#include "divide.hpp"
-#include "item.hpp"
+#include "build/binned.hpp"
+#include "build/divide.hpp"
+#include "build/item.hpp"
 #include "light_cluster.hpp"
 #include "representatives.hpp"
 
@@ -84,7 +84,7 @@ public:
             throw invalid_input("representatives: " + std::to_string(options.representatives) + " is not in 1 to 32");
         }
         build_topology(builder, execute);
-        summarise();
+        summarize();
     }
 
     template <class Builder = BinnedBuilder, Executor E = Sequential>
@@ -104,7 +104,7 @@ public:
         for (node_index n = 0; n < tree_.size(); ++n) {
             if (tree_.is_leaf(n)) checked_item(lights_[tree_.item(n)], tree_.item(n));
         }
-        summarise();
+        summarize();
     }
 
     /// True if no light is lit.
@@ -128,7 +128,7 @@ private:
         throw invalid_input("light " + std::to_string(index) + ": " + what);
     }
 
-    void summarise() {
+    void summarize() {
         constexpr int channels = channels_of<spectrum>;
         using Sums = std::array<double, static_cast<std::size_t>(channels)>;
         std::vector<Sums> sums(tree_.size());

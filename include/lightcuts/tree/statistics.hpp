@@ -8,9 +8,9 @@
 
 #include "../core/box.hpp"
 #include "../core/cone.hpp"
+#include "build/normalized_space.hpp"
 #include "cluster_tree.hpp"
-#include "frame.hpp"
-#include "item.hpp"
+#include "build/item.hpp"
 #include "summary.hpp"
 
 namespace lightcuts {
@@ -47,11 +47,11 @@ TreeStatistics statistics(const ClusterTree& tree, std::span<const Item> items) 
         double weight;
         Cone cone;
     };
-    const Frame frame = Frame::of(items);
+    const NormalizedSpace space = NormalizedSpace::of(items);
     const auto summaries = summarize(
         tree,
         [&](std::uint32_t i) {
-            Summary s{box_of(items[i].position), frame.weight(items[i].weight), Cone{}};
+            Summary s{box_of(items[i].position), space.weight(items[i].weight), Cone{}};
             if constexpr (HasAxis<Item>) s.cone = cone_of(items[i].axis);
             return s;
         },
@@ -66,7 +66,7 @@ TreeStatistics statistics(const ClusterTree& tree, std::span<const Item> items) 
             result.depth_mean += depth[n];
             continue;
         }
-        double size = diagonal2(summaries[n].box) * frame.per_length * frame.per_length;
+        double size = diagonal2(summaries[n].box) * space.per_length * space.per_length;
         if constexpr (HasAxis<Item>) size += one_minus_cos(summaries[n].cone) * one_minus_cos(summaries[n].cone);
         result.cost += summaries[n].weight * size;
     }
