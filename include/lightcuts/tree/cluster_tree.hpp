@@ -38,10 +38,13 @@ public:
     explicit ClusterTree(std::vector<std::uint32_t> words) : words_(std::move(words)), item_count_(count_leaves()) {
         item_bound_ = item_count_;
     }
-    /// Takes the words of a post-order array over some of the items 0 .. item_bound-1. pre, cost: as above.
+    /// Takes the words of a post-order array over some of the items 0 .. item_bound-1: `leaf_word(item)` for a leaf,
+    /// else the index of the subtree's first leaf. pre: the array is a valid tree (`validate` checks). cost: one pass,
+    /// O(N).
     ClusterTree(std::vector<std::uint32_t> words, std::size_t item_bound)
         : words_(std::move(words)), item_count_(count_leaves()), item_bound_(item_bound) {}
 
+    /// The word of a leaf that holds `item`. pre: item < max_items.
     static constexpr std::uint32_t leaf_word(std::uint32_t item) { return item | leaf_bit; }
 
     /// Number of nodes: 2N-1 in a binary tree, less in others, 0 in the empty one.
@@ -54,12 +57,12 @@ public:
     /// True if every inner node has two children; so for the empty tree and for a single leaf.
     bool is_binary() const { return words_.size() + 1 >= 2 * item_count_; }
 
-    /// pre: not empty.
+    /// The last node, which is above all others. pre: not empty.
     node_index root() const { return static_cast<node_index>(words_.size() - 1); }
 
     bool is_leaf(node_index n) const { return (words_[n] & leaf_bit) != 0; }
 
-    /// pre: is_leaf(n).
+    /// The item that a leaf holds. pre: is_leaf(n).
     std::uint32_t item(node_index n) const {
         LIGHTCUTS_ASSERT(is_leaf(n));
         return words_[n] & ~leaf_bit;
@@ -95,6 +98,7 @@ public:
     /// True iff d is n or lies below it.
     bool contains(node_index n, node_index d) const { return left_leaf(n) <= d && d <= n; }
 
+    /// The array: of each leaf `leaf_word(item)`, of each other node the index of its subtree's first leaf.
     const std::vector<std::uint32_t>& words() const { return words_; }
 
     /// Gives the storage back, for the next tree to be built in; leaves an empty tree.

@@ -8,9 +8,9 @@
 
 #include "../core/box.hpp"
 #include "../core/cone.hpp"
+#include "build/item.hpp"
 #include "build/normalized_space.hpp"
 #include "cluster_tree.hpp"
-#include "build/item.hpp"
 #include "summary.hpp"
 
 namespace lightcuts {
@@ -76,10 +76,11 @@ TreeStatistics statistics(const ClusterTree& tree, std::span<const Item> items) 
 
 }  // namespace detail
 
-/// pre: a valid tree of these items. cost: O(N).
+/// Depth and cost of a tree of items without direction. pre: a valid tree of these items. cost: O(N).
 inline TreeStatistics statistics(const ClusterTree& tree, std::span<const PointItem> items) {
     return detail::statistics(tree, items);
 }
+/// Depth and cost of a tree of items with an axis. pre: a valid tree of these items. cost: O(N).
 inline TreeStatistics statistics(const ClusterTree& tree, std::span<const OrientedItem> items) {
     return detail::statistics(tree, items);
 }

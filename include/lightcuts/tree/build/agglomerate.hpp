@@ -97,20 +97,20 @@ private:
         moved_[b] = a;
     }
 
-    /// The slot of the cluster that has swallowed the one which was in `slot`.
+    /// The slot of the cluster that now holds the one which was in `slot`.
     std::uint32_t home(std::uint32_t slot) const {
         while (moved_[slot] != none) slot = moved_[slot];
         return slot;
     }
 
-    /// Makes the link of a cluster valid.
+    /// Makes the link of a cluster valid: seeks its nearest neighbor unless the one known still exists.
     void find_neighbor(const NeighborTree<Oriented>& tree, std::uint32_t slot) {
         Link& link = links_[slot];
         Neighbor best;
         if (link.slot != none) {
             const std::uint32_t h = home(link.slot);
             if (nodes_[h] == link.node) return;
-            // The neighbor has been swallowed: whatever swallowed it is a good candidate.
+            // The neighbor has been merged: the cluster that holds it is a good candidate.
             LIGHTCUTS_ASSERT(h != slot);
             best = {h, rank(clusters_[slot], clusters_[h], direction_)};
         }
@@ -161,7 +161,7 @@ private:
         compact();
     }
 
-    /// Removes the slots of swallowed clusters.
+    /// Removes the slots whose clusters were merged into others.
     void compact() {
         std::vector<std::uint32_t> place(clusters_.size());
         std::uint32_t left = 0;
@@ -205,7 +205,7 @@ private:
     std::vector<BuildCluster<Oriented>> clusters_;
     std::vector<std::uint32_t> nodes_;
     std::vector<Link> links_;
-    std::vector<std::uint32_t> moved_;  ///< the slot that has swallowed this one's cluster, or none
+    std::vector<std::uint32_t> moved_;  ///< the slot that this one's cluster was merged into, or none
 
     std::vector<std::uint32_t> chain_;  ///< slots, each but the first the nearest neighbor of the one before
     std::size_t steps_ = 0;

@@ -149,7 +149,8 @@ private:
     std::array<std::array<float, max_bins>, axis_count> weights_;
 };
 
-/// Visits `size` of the items, in chunks, one from each of as many equal stretches: no order of the items can fool it.
+/// Visits `size` of the items, in chunks, one from each of as many equal stretches, so
+/// that no order of the items biases it.
 template <class Item, class Visit>
 void visit_sample(std::span<const Item> items, std::size_t size, Visit&& visit) {
     std::array<Item, 64> chunk;

@@ -42,7 +42,7 @@ public:
     Split<Dimensions> split(const Range& range, std::uint32_t first, unsigned depth) const {
         const std::size_t items = range.items.size();
         words_[first + 2 * items - 2] = first;
-        // Sets made to be peeled one by one must not make the tree, or the stack, deep.
+        // Sets of which a splitter takes off one item at a time must not make the tree, or the stack, deep.
         Split<Dimensions> split = depth < max_depth_ ? splitter_.split(range, space_)
                                                      : LongestAxis{}.split(range, space_);
         LIGHTCUTS_ASSERT(!split.left.items.empty() && !split.right.items.empty());
@@ -178,7 +178,7 @@ ClusterTree divide(std::span<const Item> items, const S& splitter, const E& exec
 /// throws: invalid_input naming the item: position not finite, weight not positive; or too many items.
 /// cost: O(N log N); temporary memory of 20 bytes an item besides the tree's 8.
 template <Splitter<3> S = Binned, Executor E = Sequential, Progress P = NoProgress>
-ClusterTree divide(std::span<const PointItem> items, S splitter = {}, const E& execute = {}, P progress = {}) {
+ClusterTree divide(std::span<const PointItem> items, const S& splitter = {}, const E& execute = {}, P progress = {}) {
     return detail::divide(items, splitter, execute, progress);
 }
 
@@ -189,7 +189,8 @@ ClusterTree divide(std::span<const PointItem> items, S splitter = {}, const E& e
 /// many items; or if the splitter's `direction_length` is negative or not finite.
 /// cost: O(N log N); temporary memory of 32 bytes an item besides the tree's 8.
 template <Splitter<6> S = Binned, Executor E = Sequential, Progress P = NoProgress>
-ClusterTree divide(std::span<const OrientedItem> items, S splitter = {}, const E& execute = {}, P progress = {}) {
+ClusterTree divide(std::span<const OrientedItem> items, const S& splitter = {}, const E& execute = {},
+                   P progress = {}) {
     return detail::divide(items, splitter, execute, progress);
 }
 

@@ -16,13 +16,14 @@
 namespace lightcuts {
 
 /// What builders read of an item without direction: an omni light, or a directional light whose direction stands
-/// for its position. pre: finite; weight > 0.
+/// for its position. pre: finite; weight > 0 (in `build_item` also 0).
 struct PointItem {
     glm::vec3 position;
-    float weight;  ///< intensity, as the sum of channels
+    float weight;  ///< of a light its intensity, as the sum of channels
 };
 
-/// What builders read of an item with a direction. pre: finite; |axis| = 1; weight > 0.
+/// What builders read of an item with a direction. pre: finite; |axis| = 1 (in `build_item` any vector); weight > 0
+/// (in `build_item` also 0).
 struct OrientedItem {
     glm::vec3 position;
     glm::vec3 axis;

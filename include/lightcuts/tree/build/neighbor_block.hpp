@@ -190,7 +190,8 @@ struct Probe {
 private:
     static constexpr float root_error = 1.002f;
 
-    /// The square root from below, at most root_error too small: std::sqrt minds errno, so it is not vectorized.
+    /// The square root from below, at most root_error too small: std::sqrt sets errno, so compilers do not
+    /// vectorize it.
     static float root_below(float x) {
         const float r = std::bit_cast<float>(0x5f3759dfu - (std::bit_cast<std::uint32_t>(x) >> 1));
         return x * r * (1.5f - 0.5f * x * r * r);  // one step of Newton's method, which never exceeds the root
