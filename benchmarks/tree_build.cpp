@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <chrono>
 #include <cmath>
 #include <cstddef>
@@ -196,11 +197,11 @@ Receivers in_volume() {
 }
 
 /// Equally spaced lights on a line, each weaker than the one before: of each light the nearest neighbor, as greedy
-/// builders measure it, is the next one. One light more than the number if that is even, so that no run of lights is
-/// halved evenly.
+/// builders measure it, is the next one. 2^k + 1 of them, at least `count`: in this number chains of nearest neighbors
+/// are longest.
 std::vector<PointItem> strip(std::size_t count) {
     std::vector<PointItem> items;
-    count |= 1;
+    count = std::bit_ceil(count) + 1;
     for (std::size_t i = 0; i < count; ++i) {
         const float x = static_cast<float>(i) / static_cast<float>(count - 1);
         items.push_back({{x, 0, 0}, 1.0f + static_cast<float>(count - i) / static_cast<float>(count)});
