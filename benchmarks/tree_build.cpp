@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <chrono>
 #include <cmath>
 #include <cstddef>
@@ -27,8 +28,8 @@
 #include <lightcuts/light/omni.hpp>
 #include <lightcuts/light/oriented.hpp>
 #include <lightcuts/material/lambert.hpp>
-#include <lightcuts/tree/agglomerate.hpp>
-#include <lightcuts/tree/divide.hpp>
+#include <lightcuts/tree/build/agglomerate.hpp>
+#include <lightcuts/tree/build/divide.hpp>
 #include <lightcuts/tree/light_tree.hpp>
 #include <lightcuts/tree/statistics.hpp>
 #include <nlohmann/json.hpp>
@@ -193,6 +194,34 @@ std::vector<PointItem> volume(std::size_t count) {
 Receivers in_volume() {
     return receivers([](Uniform& uniform) { return uniform.cube(); },
                      [](Uniform& uniform) { return uniform.direction(); });
+}
+
+/// Equally spaced lights on a line, each weaker than the one before: of each light the nearest neighbor, as greedy
+/// builders measure it, is the next one. 2^k + 1 of them, at least `count`: in this number chains of nearest neighbors
+/// are longest.
+std::vector<PointItem> strip(std::size_t count) {
+    std::vector<PointItem> items;
+    count = std::bit_ceil(count) + 1;
+    for (std::size_t i = 0; i < count; ++i) {
+        const float x = static_cast<float>(i) / static_cast<float>(count - 1);
+        items.push_back({{x, 0, 0}, 1.0f + static_cast<float>(count - i) / static_cast<float>(count)});
+    }
+    return items;
+}
+
+/// The same lights with random weights.
+std::vector<PointItem> uneven_strip(std::size_t count) {
+    Uniform uniform;
+    std::vector<PointItem> items = strip(count);
+    for (PointItem& item : items) item.weight = 1.0f + uniform();
+    return items;
+}
+
+/// On either side of the line.
+Receivers along_strip() {
+    return receivers(
+        [](Uniform& uniform) { return (uniform.cube() - glm::vec3(0, 0.5f, 0.5f)) * glm::vec3(1, 0.2f, 0.2f); },
+        [](Uniform& uniform) { return uniform.direction(); });
 }
 
 /// Lights at infinity, all around.
@@ -366,6 +395,8 @@ int main(int argc, char** argv) {
             "bumpy", [](std::size_t n) { return surfaces(n, 0.2f); }, oriented_light, between_surfaces());
         table.measure<PointItem>("volume", volume, omni_light, in_volume());
         table.measure<PointItem>("directional", directions, distant_light, in_volume());
+        table.measure<PointItem>("strip", strip, omni_light, along_strip());
+        table.measure<PointItem>("uneven strip", uneven_strip, omni_light, along_strip());
         return table.rows();
     });
 }

@@ -1,7 +1,7 @@
 #include "scene_lights.hpp"
 
-#include <lightcuts/tree/agglomerate.hpp>
-#include <lightcuts/tree/longest_axis.hpp>
+#include <lightcuts/tree/build/agglomerate.hpp>
+#include <lightcuts/tree/build/longest_axis.hpp>
 
 #include "tbb_executor.hpp"
 

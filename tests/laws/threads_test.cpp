@@ -16,12 +16,12 @@
 #include <lightcuts/estimate/stochastic_lightcuts.hpp>
 #include <lightcuts/estimate/tree_sampling.hpp>
 #include <lightcuts/estimate/ward.hpp>
-#include <lightcuts/tree/agglomerate.hpp>
-#include <lightcuts/tree/divide.hpp>
+#include <lightcuts/tree/build/agglomerate.hpp>
+#include <lightcuts/tree/build/divide.hpp>
 #include "support/cut_results.hpp"
 #include "support/scene.hpp"
 #include "support/threads.hpp"
-#include "tree/item_sets.hpp"
+#include "tree/build/item_sets.hpp"
 
 namespace lightcuts::test {
 namespace {

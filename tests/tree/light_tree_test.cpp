@@ -33,6 +33,35 @@ static_assert(std::is_constructible_v<LightTree<OmniLight<>>, const std::vector<
 static_assert(!std::is_constructible_v<LightTree<OmniLight<>>, std::vector<OmniLight<>>>);
 static_assert(!std::is_constructible_v<LightTree<OmniLight<>>, std::vector<OmniLight<>>, LightTreeOptions>);
 
+// A copy of what holds lights and their tree would refer to the lights of the original.
+static_assert(!std::is_copy_constructible_v<LightTree<OmniLight<>>>);
+static_assert(!std::is_copy_assignable_v<LightTree<OmniLight<>>>);
+static_assert(std::is_nothrow_move_constructible_v<LightTree<OmniLight<>>>);
+static_assert(std::is_nothrow_move_assignable_v<LightTree<OmniLight<>>>);
+
+TEST(LightTree, MovesWithLightsThatStayInPlace) {
+    struct Lamps {
+        std::vector<OmniLight<>> lights;
+        LightTree<OmniLight<>> tree{lights};
+    };
+    Room<V> room(8);
+    Lamps lamps{room.omni(50)};
+    const auto receivers = room.diffuse_receivers(3);
+    std::vector<V> expected;
+    for (const auto& receiver : receivers) expected.push_back(shade(lamps.tree, receiver).radiance);
+    Lamps moved = std::move(lamps), assigned;
+    assigned = std::move(moved);
+    for (const LightTree<OmniLight<>>* left : {&lamps.tree, &moved.tree}) {  // NOLINT(bugprone-use-after-move)
+        EXPECT_TRUE(left->empty());
+        EXPECT_TRUE(left->lights().empty());
+        EXPECT_TRUE(left->clusters().empty());
+    }
+    EXPECT_EQ(assigned.tree.lights().data(), assigned.lights.data());
+    for (std::size_t i = 0; i < receivers.size(); ++i) {
+        EXPECT_EQ(shade(assigned.tree, receivers[i]).radiance, expected[i]);
+    }
+}
+
 TEST(LightTree, TakesFewBytesALight) {
     Room<V> room(1);
     const auto omni = room.omni(5000);
@@ -153,7 +182,7 @@ TEST(LightTree, RefusesAxesAndDirectionsThatAreNotUnitVectors) {
         EXPECT_NE(message.find("light 1"), std::string::npos) << bad.x << ' ' << bad.y << ' ' << bad.z;
         EXPECT_NE(message.find("direction"), std::string::npos) << message;
     }
-    // What float normalisation leaves is accepted.
+    // What float normalization leaves is accepted.
     Room<V> room(4);
     EXPECT_EQ(refusal(room.distant(1000)), "");
     EXPECT_EQ(refusal(room.oriented(1000)), "");
@@ -164,6 +193,13 @@ TEST(LightTree, RefusesNumbersOfRepresentativesOutOfRange) {
     EXPECT_THROW(LightTree(lights, {.representatives = 0}), invalid_input);
     EXPECT_THROW(LightTree(lights, {.representatives = 33}), invalid_input);
     EXPECT_NO_THROW(LightTree(lights, {.representatives = 32}));
+}
+
+TEST(LightTree, RefusesTopologiesThatAreNotBinary) {
+    const std::vector<OmniLight<>> lights(3, {V(1.0f), V(1.0f), {}});
+    constexpr auto leaf = ClusterTree::leaf_word;
+    const auto flat = [](const auto&, const auto&) { return ClusterTree({leaf(0), leaf(1), leaf(2), 0}); };
+    EXPECT_THROW(LightTree(lights, {}, flat), invalid_input);
 }
 
 // Lights that moved, turned or dimmed in place: refit knows what a new tree of the same topology would.

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <span>
@@ -6,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include <lightcuts/tree/divide.hpp>
+#include <lightcuts/tree/build/divide.hpp>
 #include <lightcuts/tree/representatives.hpp>
 #include "support/random.hpp"
 #include "support/statistics.hpp"
@@ -92,7 +93,7 @@ TEST(Representatives, OfANodeAreTakenFromItsChildren) {
     }
 }
 
-// As many as the richer child has, plus one with probability poorer / richer, up to the limit [Miksik 2007].
+// As many as the child with more has, plus one with probability fewer / more, up to the limit [Miksik 2007].
 TEST(Representatives, GrowInNumberByMiksiksRule) {
     const WeightedTree t = weighted_tree(200, 3);
     for (unsigned limit = 2; limit <= 32; ++limit) {
@@ -103,18 +104,18 @@ TEST(Representatives, GrowInNumberByMiksiksRule) {
                 if (t.tree.is_leaf(n)) continue;
                 const std::size_t a = representatives.of(t.tree.left(n)).size(),
                                   b = representatives.of(t.tree.right(n)).size();
-                const std::size_t richer = std::max(a, b), poorer = std::min(a, b), own = representatives.of(n).size();
+                const std::size_t more = std::max(a, b), fewer = std::min(a, b), own = representatives.of(n).size();
                 ASSERT_LE(own, limit);
-                if (richer == limit) {
+                if (more == limit) {
                     EXPECT_EQ(own, limit);
                     continue;
                 }
-                ASSERT_TRUE(own == richer || own == richer + 1);
-                const double chance = static_cast<double>(poorer) / static_cast<double>(richer);
-                if (poorer == richer) {
-                    EXPECT_EQ(own, richer + 1);
+                ASSERT_TRUE(own == more || own == more + 1);
+                const double chance = static_cast<double>(fewer) / static_cast<double>(more);
+                if (fewer == more) {
+                    EXPECT_EQ(own, more + 1);
                 } else {
-                    surplus.add((own > richer ? 1.0 : 0.0) - chance);
+                    surplus.add((own > more ? 1.0 : 0.0) - chance);
                 }
             }
         }
@@ -166,6 +167,70 @@ TEST(Representatives, OfExtremeWeightsAreValid) {
         EXPECT_EQ(Representatives(t.tree, std::vector<double>{1.0, 0.0, 1.0}, 1, seed).of(2)[0], 0u);
         const Representatives several(t.tree, std::vector<double>{0.0, 1.0, 1.0}, 4, seed);
         for (const node_index leaf : several.of(2)) EXPECT_EQ(leaf, 1u);
+    }
+}
+
+// Gather points that see nothing at one instant, say: a node without weight is represented by any leaf below it.
+TEST(Representatives, OfNodesWithoutWeightAreAnyLeavesBelow) {
+    const WeightedTree t = weighted_tree(60, 6);
+    std::vector<double> weights = t.weights;
+    for (node_index n = 0; n < t.tree.size(); ++n) {
+        if (t.tree.is_leaf(n)) {
+            weights[n] = t.tree.item(n) % 3 == 0 ? weights[n] : 0.0;
+        } else {
+            weights[n] = weights[t.tree.left(n)] + weights[t.tree.right(n)];
+        }
+    }
+    const std::vector<double> dark(t.tree.size(), 0.0);
+    for (const unsigned limit : {1u, 8u}) {
+        std::map<node_index, int> chosen;
+        constexpr int seeds = 2000;
+        for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+            const Representatives some(t.tree, weights, limit, seed), none(t.tree, dark, limit, seed);
+            for (node_index n = 0; n < t.tree.size(); ++n) {
+                for (const node_index leaf : some.of(n)) {
+                    ASSERT_TRUE(t.tree.is_leaf(leaf) && t.tree.contains(n, leaf));
+                    if (weights[n] > 0.0) { ASSERT_GT(weights[leaf], 0.0); }
+                }
+                for (const node_index leaf : none.of(n)) ASSERT_TRUE(t.tree.is_leaf(leaf) && t.tree.contains(n, leaf));
+            }
+            ++chosen[none.draw(t.tree.root(), hash_keys(seed, 1))];
+        }
+        // Each child is as likely.
+        int left = 0;
+        for (const auto& [leaf, count] : chosen) {
+            if (t.tree.contains(t.tree.left(t.tree.root()), leaf)) left += count;
+        }
+        EXPECT_NEAR(left, seeds / 2, 5 * std::sqrt(seeds / 4.0)) << limit;
+    }
+}
+
+// A side and an instant in the seed: choices are independent of those of another instant.
+TEST(Representatives, OfDifferentInstantsAreChosenIndependently) {
+    const WeightedTree t = weighted_tree(2, 7);
+    const std::vector<double> even{1.0, 1.0, 2.0};
+    int same = 0;
+    constexpr int seeds = 10000;
+    for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+        const Representatives now(t.tree, even, 1, hash_keys(seed, 0, 3)), then(t.tree, even, 1, hash_keys(seed, 0, 4));
+        same += now.of(2)[0] == then.of(2)[0] ? 1 : 0;
+    }
+    EXPECT_NEAR(same, seeds / 2, 5 * std::sqrt(seeds / 4.0));
+}
+
+TEST(Representatives, ChosenAnewAreThoseChosenAtFirst) {
+    Representatives reused;
+    for (const std::size_t count : {40u, 300u, 2u}) {
+        const WeightedTree t = weighted_tree(count, count);
+        for (const unsigned limit : {1u, 4u, 1u}) {
+            reused.choose(t.tree, t.weights, limit, 9);
+            const Representatives fresh(t.tree, t.weights, limit, 9);
+            EXPECT_EQ(reused.single(), fresh.single());
+            for (node_index n = 0; n < t.tree.size(); ++n) {
+                const auto a = reused.of(n), b = fresh.of(n);
+                EXPECT_TRUE(std::equal(a.begin(), a.end(), b.begin(), b.end()));
+            }
+        }
     }
 }
 

@@ -11,7 +11,7 @@
 #include <lightcuts/tree/light_tree.hpp>
 #include <lightcuts/tree/summary.hpp>
 
-#include "tree/item_sets.hpp"
+#include "tree/build/item_sets.hpp"
 
 namespace {
 
@@ -30,17 +30,25 @@ TEST(Validate, AcceptsValidTrees) {
     EXPECT_EQ(message({leaf(1), leaf(0), 0}), "");
     EXPECT_EQ(message({leaf(0), leaf(3), 0, leaf(2), leaf(1), 3, 0}), "");
     EXPECT_EQ(message({leaf(0), leaf(1), leaf(2), 1, 0}), "");
+    EXPECT_EQ(message({leaf(0), leaf(1), leaf(2), 0}), "");
+    EXPECT_EQ(message({leaf(0), leaf(1), leaf(3), leaf(2), 2, 0}), "");
 }
 
 TEST(Validate, NamesTheFirstNodeThatIsWrong) {
-    EXPECT_EQ(message({leaf(0), leaf(1)}), "cluster tree: a binary tree has an odd number of nodes, not 2");
+    EXPECT_EQ(message({leaf(0), leaf(1)}), "cluster tree, node 1: the last node is not the root of all others");
     EXPECT_EQ(message({0}), "cluster tree, node 0: an inner node needs two complete subtrees before it");
     EXPECT_EQ(message({leaf(0), 0, leaf(1)}),
               "cluster tree, node 1: an inner node needs two complete subtrees before it");
     EXPECT_EQ(message({leaf(0), leaf(2), 0}), "cluster tree, node 1: item 2 is out of range");
     EXPECT_EQ(message({leaf(1), leaf(1), 0}), "cluster tree, node 1: item 1 occurs twice");
-    EXPECT_EQ(message({leaf(0), leaf(1), 1}), "cluster tree, node 2: its first leaf is node 0, not 1");
-    EXPECT_EQ(message({leaf(0), leaf(1), leaf(2), 0, 0}), "cluster tree, node 3: its first leaf is node 1, not 0");
+    EXPECT_EQ(message({leaf(0), leaf(1), 1}),
+              "cluster tree, node 2: its first leaf is said to be node 1, which leaves it one child");
+    EXPECT_EQ(message({leaf(0), leaf(1), 0, leaf(2), 1}),
+              "cluster tree, node 4: its first leaf is said to be node 1, which is not that of a complete subtree");
+    EXPECT_EQ(message({leaf(0), leaf(1), 7}),
+              "cluster tree, node 2: its first leaf is said to be node 7, which is not that of a complete subtree");
+    EXPECT_EQ(message({leaf(0), leaf(1), leaf(2), 0, 0}),
+              "cluster tree, node 4: an inner node needs two complete subtrees before it");
 }
 
 TEST(Validate, AcceptsTreesOfSomeOfTheItems) {

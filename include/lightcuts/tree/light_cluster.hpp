@@ -45,6 +45,7 @@ struct LightCluster {
     [[no_unique_address]] envelope_type envelope{};  ///< dominates the lights' emission and falloff
 };
 
+/// The cluster of a single light.
 template <Light L>
 LightCluster<L> cluster_of(const L& light) {
     LightCluster<L> cluster;
@@ -55,7 +56,7 @@ LightCluster<L> cluster_of(const L& light) {
     return cluster;
 }
 
-/// The union of two clusters, except for the intensity: sums of many floats are left to the caller, in double.
+/// The union of two clusters with an intensity of zero: many intensities are best added up in double, by the caller.
 template <Light L>
 LightCluster<L> merge_extents(const LightCluster<L>& a, const LightCluster<L>& b) {
     LightCluster<L> cluster;

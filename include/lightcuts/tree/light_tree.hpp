@@ -11,23 +11,24 @@
 
 #include "../core/executor.hpp"
 #include "../core/invalid_input.hpp"
-#include "binned.hpp"
-#include "divide.hpp"
-#include "item.hpp"
+#include "build/binned.hpp"
+#include "build/divide.hpp"
+#include "build/item.hpp"
 #include "light_cluster.hpp"
 #include "representatives.hpp"
 
 namespace lightcuts {
 
+/// How light trees are built.
 struct LightTreeOptions {
     /// Most representatives a node may have, 1 to 32. 1 is the least memory; 8 turns the bands that one can leave
     /// in penumbrae into noise.
     unsigned representatives = 1;
-    /// Of the choice of representatives.
+    /// Representatives are chosen by a hash of it: trees that differ in nothing else choose independently.
     std::uint64_t seed = 1;
 };
 
-/// The default builder of light trees: top-down, binned.
+/// The default builder of light trees: from the top down by `Binned`.
 struct BinnedBuilder {
     template <class Item, Executor E>
     ClusterTree operator()(std::span<const Item> items, const E& execute) const {
@@ -35,7 +36,7 @@ struct BinnedBuilder {
     }
 };
 
-/// Says what a type lacks to be a light.
+/// Stands for the light tree of a type that is no light; does not compile, and says what the type lacks.
 template <class L>
 class LightTree {
     static_assert(detail::HasIntensity<L>,
@@ -72,7 +73,24 @@ public:
     using cluster = LightCluster<L>;
     using node_index = ClusterTree::node_index;
 
+    /// A tree of no lights.
     LightTree() = default;
+
+    /// A tree cannot be copied: a copy would refer to the lights of the original, which a copy of what holds both would
+    /// not take along. Move it, share it by reference, or build another from the other lights.
+    LightTree(const LightTree&) = delete;
+    LightTree& operator=(const LightTree&) = delete;
+    /// The lights must stay where they are; a std::vector that is moved keeps them there. What was moved from is a tree
+    /// of no lights. Forests that refer to it do not follow.
+    LightTree(LightTree&& other) noexcept { *this = std::move(other); }
+    LightTree& operator=(LightTree&& other) noexcept {
+        lights_ = std::exchange(other.lights_, {});
+        options_ = other.options_;
+        tree_ = std::exchange(other.tree_, {});
+        clusters_ = std::exchange(other.clusters_, {});
+        representatives_ = std::exchange(other.representatives_, {});
+        return *this;
+    }
 
     /// Builds the topology by `builder(items, executor) -> ClusterTree`, then what the nodes know.
     /// throws: invalid_input naming the first light whose intensity is negative or not finite, whose position or
@@ -85,7 +103,7 @@ public:
             throw invalid_input("representatives: " + std::to_string(options.representatives) + " is not in 1 to 32");
         }
         build_topology(builder, execute);
-        summarise();
+        update();
     }
 
     template <class Builder = BinnedBuilder, Executor E = Sequential>
@@ -93,7 +111,7 @@ public:
                        const E& execute = {})
         : LightTree(std::span<const L>(lights), options, builder, execute) {}
 
-    /// The tree would refer to lights that are gone.
+    /// Temporary lights are refused: the tree would refer to lights that are gone.
     template <class... Rest>
     explicit LightTree(std::vector<L>&&, Rest&&...) = delete;
 
@@ -105,15 +123,18 @@ public:
         for (node_index n = 0; n < tree_.size(); ++n) {
             if (tree_.is_leaf(n)) checked_item(lights_[tree_.item(n)], tree_.item(n));
         }
-        summarise();
+        update();
     }
 
     /// True if no light is lit.
     bool empty() const { return tree_.empty(); }
+    /// The caller's lights, also those that are dark.
     std::span<const L> lights() const { return lights_; }
-    /// Its items are indices of lights.
+    /// The tree without what its nodes know; its items are indices of lights.
     const ClusterTree& topology() const { return tree_; }
+    /// What each node knows, in node order.
     std::span<const cluster> clusters() const { return clusters_; }
+    /// Which lights may stand for each node.
     const Representatives& representatives() const { return representatives_; }
     /// A cut of the whole tree of at most 32 clusters of about equal power, from which to refine: nearly every cut lies
     /// below it. Neighbors stand side by side.
@@ -134,7 +155,9 @@ private:
         throw invalid_input("light " + std::to_string(index) + ": " + what);
     }
 
-    void summarise() {
+    /// What the nodes know, of the lights as they are now. One pass over all of it: `summarize` once for extents and
+    /// once for sums takes a seventh longer.
+    void update() {
         constexpr int channels = channels_of<spectrum>;
         using Sums = std::array<double, static_cast<std::size_t>(channels)>;
         std::vector<Sums> sums(tree_.size());
@@ -225,6 +248,7 @@ private:
             }
         }
         tree_ = builder(std::span<const Item>(items), execute);
+        if (!tree_.is_binary()) throw invalid_input("light tree: its builder made a tree that is not binary");
         if (!light_of.empty()) tree_ = relabelled(tree_, light_of, lights_.size());
     }
 

@@ -8,9 +8,9 @@
 
 #include "../core/box.hpp"
 #include "../core/cone.hpp"
+#include "build/item.hpp"
+#include "build/normalized_space.hpp"
 #include "cluster_tree.hpp"
-#include "frame.hpp"
-#include "item.hpp"
 #include "summary.hpp"
 
 namespace lightcuts {
@@ -31,7 +31,8 @@ inline std::vector<std::uint32_t> depths(const ClusterTree& tree) {
     std::vector<std::uint32_t> depth(tree.size(), 0);
     for (std::size_t k = tree.size(); k-- > 0;) {
         const auto n = static_cast<ClusterTree::node_index>(k);
-        if (!tree.is_leaf(n)) depth[tree.left(n)] = depth[tree.right(n)] = depth[n] + 1;
+        if (!tree.is_leaf(n))
+            tree.for_each_child(n, [&](ClusterTree::node_index child) { depth[child] = depth[n] + 1; });
     }
     return depth;
 }
@@ -46,11 +47,11 @@ TreeStatistics statistics(const ClusterTree& tree, std::span<const Item> items) 
         double weight;
         Cone cone;
     };
-    const Frame frame = Frame::of(items);
+    const NormalizedSpace space = NormalizedSpace::of(items);
     const auto summaries = summarize(
         tree,
         [&](std::uint32_t i) {
-            Summary s{box_of(items[i].position), frame.weight(items[i].weight), Cone{}};
+            Summary s{box_of(items[i].position), space.weight(items[i].weight), Cone{}};
             if constexpr (HasAxis<Item>) s.cone = cone_of(items[i].axis);
             return s;
         },
@@ -65,7 +66,7 @@ TreeStatistics statistics(const ClusterTree& tree, std::span<const Item> items) 
             result.depth_mean += depth[n];
             continue;
         }
-        double size = diagonal2(summaries[n].box) * frame.per_length * frame.per_length;
+        double size = diagonal2(summaries[n].box) * space.per_length * space.per_length;
         if constexpr (HasAxis<Item>) size += one_minus_cos(summaries[n].cone) * one_minus_cos(summaries[n].cone);
         result.cost += summaries[n].weight * size;
     }
@@ -75,10 +76,11 @@ TreeStatistics statistics(const ClusterTree& tree, std::span<const Item> items) 
 
 }  // namespace detail
 
-/// pre: a valid tree of these items. cost: O(N).
+/// Depth and cost of a tree of items without direction. pre: a valid tree of these items. cost: O(N).
 inline TreeStatistics statistics(const ClusterTree& tree, std::span<const PointItem> items) {
     return detail::statistics(tree, items);
 }
+/// Depth and cost of a tree of items with an axis. pre: a valid tree of these items. cost: O(N).
 inline TreeStatistics statistics(const ClusterTree& tree, std::span<const OrientedItem> items) {
     return detail::statistics(tree, items);
 }

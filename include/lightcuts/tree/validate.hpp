@@ -1,7 +1,10 @@
 #pragma once
 
+#include <algorithm>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -10,8 +13,8 @@
 
 namespace lightcuts {
 
-/// Checks that `tree` is a post-order tree in which no item occurs twice and all are below `tree.item_bound()`; as long
-/// as that is their number, every item occurs exactly once.
+/// Checks that `tree` is a post-order tree, each inner node of which has two children or more, in which no item occurs
+/// twice and all are below `tree.item_bound()`; as long as that is their number, every item occurs exactly once.
 /// throws: invalid_input naming the first node that is wrong. cost: O(item_bound).
 inline void validate(const ClusterTree& tree) {
     const auto refuse = [](std::size_t node, const std::string& what) {
@@ -19,10 +22,6 @@ inline void validate(const ClusterTree& tree) {
     };
     const std::vector<std::uint32_t>& words = tree.words();
     if (words.empty()) return;
-    if (words.size() % 2 == 0) {
-        throw invalid_input("cluster tree: a binary tree has an odd number of nodes, not " +
-                            std::to_string(words.size()));
-    }
     std::vector<bool> seen(tree.item_bound(), false);
     std::vector<std::uint32_t> first_leaves;  // of the complete subtrees so far, left to right
     for (ClusterTree::node_index n = 0; n < words.size(); ++n) {
@@ -34,27 +33,50 @@ inline void validate(const ClusterTree& tree) {
             first_leaves.push_back(n);
         } else {
             if (first_leaves.size() < 2) refuse(n, "an inner node needs two complete subtrees before it");
-            first_leaves.pop_back();
-            if (words[n] != first_leaves.back()) {
-                refuse(n, "its first leaf is node " + std::to_string(first_leaves.back()) + ", not " +
-                              std::to_string(words[n]));
+            // Its children are the complete subtrees from its first leaf on.
+            std::size_t children = 0;
+            ClusterTree::node_index first = n;
+            for (; !first_leaves.empty() && words[n] <= first_leaves.back(); ++children) {
+                first = first_leaves.back();
+                first_leaves.pop_back();
             }
+            const auto refuse_first = [&](const char* what) {
+                refuse(n, "its first leaf is said to be node " + std::to_string(words[n]) + ", which " + what);
+            };
+            if (first != words[n]) refuse_first("is not that of a complete subtree");
+            if (children < 2) refuse_first("leaves it one child");
+            first_leaves.push_back(first);
         }
     }
     if (first_leaves.size() != 1) refuse(words.size() - 1, "the last node is not the root of all others");
 }
 
-/// Checks `tree` and, of every inner node, what `agrees(summary, left, right)` says of its summary and its children's.
-/// throws: invalid_input naming the first node that is wrong. cost: O(N).
+/// Checks `tree` and, of every inner node, what `agrees` says of its summary and its children's: of any number of
+/// children `agrees(summary, children)`, a span from the first to the last, or of two `agrees(summary, left, right)`.
+/// throws: invalid_input naming the first node that is wrong, or if `agrees` asks for two children and the tree is not
+/// binary. cost: O(N).
 template <class T, class Agrees>
 void validate(const ClusterTree& tree, const std::vector<T>& summaries, Agrees&& agrees) {
+    constexpr bool takes_two = std::predicate<Agrees&, const T&, const T&, const T&>;
     validate(tree);
     if (summaries.size() != tree.size()) {
         throw invalid_input("cluster tree: " + std::to_string(tree.size()) + " nodes, but " +
                             std::to_string(summaries.size()) + " summaries");
     }
+    if (takes_two && !tree.is_binary()) throw invalid_input("cluster tree: not every inner node has two children");
+    std::vector<T> children;
+    const auto good = [&](ClusterTree::node_index n) {
+        if constexpr (takes_two) {
+            return agrees(summaries[n], summaries[tree.left(n)], summaries[tree.right(n)]);
+        } else {
+            children.clear();
+            tree.for_each_child(n, [&](ClusterTree::node_index child) { children.push_back(summaries[child]); });
+            std::reverse(children.begin(), children.end());
+            return agrees(summaries[n], std::span<const T>(children));
+        }
+    };
     for (ClusterTree::node_index n = 0; n < tree.size(); ++n) {
-        if (!tree.is_leaf(n) && !agrees(summaries[n], summaries[tree.left(n)], summaries[tree.right(n)])) {
+        if (!tree.is_leaf(n) && !good(n)) {
             throw invalid_input("cluster tree, node " + std::to_string(n) +
                                 ": its summary disagrees with its children");
         }

@@ -5,15 +5,15 @@
 #include <utility>
 #include <vector>
 
-#include "cluster_tree.hpp"
+#include "../cluster_tree.hpp"
 
 namespace lightcuts::detail {
 
 /// The merges of a bottom-up builder, and the tree they make. Items are nodes 0 .. N-1, merges are nodes from N on.
-class Merges {
+class Linkage {
 public:
     /// pre: items > 0.
-    explicit Merges(std::size_t items) : items_(items) { children_.reserve(items - 1); }
+    explicit Linkage(std::size_t items) : items_(items) { children_.reserve(items - 1); }
 
     /// Joins two nodes; returns the new one.
     std::uint32_t join(std::uint32_t left, std::uint32_t right) {

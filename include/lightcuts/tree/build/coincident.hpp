@@ -9,13 +9,13 @@
 #include <utility>
 #include <vector>
 
-#include "../core/random.hpp"
+#include "../../core/random.hpp"
 #include "cluster_size.hpp"
 
 namespace lightcuts::detail {
 
 template <bool Oriented>
-bool coincide(const Cluster<Oriented>& a, const Cluster<Oriented>& b) {
+bool coincide(const BuildCluster<Oriented>& a, const BuildCluster<Oriented>& b) {
     if constexpr (Oriented) {
         if (!(a.cone.axis == b.cone.axis)) return false;
     }
@@ -26,10 +26,10 @@ bool coincide(const Cluster<Oriented>& a, const Cluster<Oriented>& b) {
 /// fewest items (then the smallest ids) first. The joined cluster takes slot a, slot b is left empty.
 /// pre: single items, in the order of their ids. cost: O(N), and O(M log M) for M coincident ones.
 template <bool Oriented, class Join>
-void merge_coincident(const std::vector<Cluster<Oriented>>& clusters, Join&& join) {
+void merge_coincident(const std::vector<BuildCluster<Oriented>>& clusters, Join&& join) {
     constexpr std::uint32_t none = 0xffff'ffffu;
     // Step 1: chain equal items through a hash table.
-    const auto hash = [](const Cluster<Oriented>& c) {
+    const auto hash = [](const BuildCluster<Oriented>& c) {
         const auto bits = [](float x) { return std::uint64_t{std::bit_cast<std::uint32_t>(x)}; };
         std::uint64_t h = hash_keys(bits(c.lo[0]) << 32 | bits(c.lo[1]), bits(c.lo[2]));
         if constexpr (Oriented) {

@@ -12,30 +12,30 @@
 #include <vector>
 
 #include "cluster_size.hpp"
-#include "neighbour_block.hpp"
+#include "neighbor_block.hpp"
 
 namespace lightcuts::detail {
 
-/// A cluster's neighbour, by slot, and the rank of merging the two.
-struct Neighbour {
+/// A cluster's neighbor, by slot, and the rank of merging the two.
+struct Neighbor {
     std::uint32_t slot = 0xffff'ffffu;
     Rank rank{std::numeric_limits<double>::infinity(), 0, 0, 0};
 };
 
-/// Finds nearest neighbours among clusters that are sorted by `KdOrder`.
+/// Finds nearest neighbors among clusters that are sorted by `KdOrder`.
 ///
 /// Clusters occupy slots. Slot s is lane s % 8 of block s / 8; blocks are the lanes of the next level's blocks, and so
 /// on up to a single one. A search climbs from the cluster's own block, whose clusters are close, and descends where
 /// the bound of a lane does not exclude it. Bounds are computed in float with a margin; clusters that they do not
 /// exclude are ranked in double.
 template <bool Oriented>
-class NeighbourTree {
+class NeighborTree {
 public:
-    static constexpr std::size_t fan = NeighbourBlock<Oriented>::lanes;
+    static constexpr std::size_t fan = NeighborBlock<Oriented>::lanes;
 
     /// Refers to `clusters`; merged ones must be announced by `replace` and `erase`. `per_weight` scales weights for
     /// the bounds.
-    NeighbourTree(std::span<const Cluster<Oriented>> clusters, double direction, double per_weight)
+    NeighborTree(std::span<const BuildCluster<Oriented>> clusters, double direction, double per_weight)
         : clusters_(clusters), direction_(direction), per_weight_(per_weight) {
         std::size_t count = clusters.size();
         for (std::size_t blocks = 0; blocks != 1; count = blocks) {
@@ -60,8 +60,8 @@ public:
 
     void erase(std::uint32_t slot) { blocks_[slot / fan].clear(slot % fan); }
 
-    /// The neighbour of least rank of the cluster in `slot` if it ranks before `best`, else `best`.
-    Neighbour nearest(std::uint32_t slot, const Neighbour& best) const {
+    /// The neighbor of least rank of the cluster in `slot` if it ranks before `best`, else `best`.
+    Neighbor nearest(std::uint32_t slot, const Neighbor& best) const {
         Search search(*this, slot, best);
         std::size_t lane = slot % fan, n = slot / fan;
         search.visit(0, n, 1u << lane);
@@ -75,13 +75,13 @@ public:
 
 private:
     struct Search {
-        const NeighbourTree& tree;
-        const Cluster<Oriented>& cluster;
+        const NeighborTree& tree;
+        const BuildCluster<Oriented>& cluster;
         Probe<Oriented> probe;
-        Neighbour best;
+        Neighbor best;
         float threshold;  ///< bounds above it exclude
 
-        Search(const NeighbourTree& t, std::uint32_t slot, const Neighbour& b)
+        Search(const NeighborTree& t, std::uint32_t slot, const Neighbor& b)
             : tree(t), cluster(t.clusters_[slot]), probe(cluster, t.direction_, t.per_weight_), best(b) {
             set_threshold();
         }
@@ -123,7 +123,7 @@ private:
         }
     };
 
-    const NeighbourBlock<Oriented>& block(std::size_t level, std::size_t n) const {
+    const NeighborBlock<Oriented>& block(std::size_t level, std::size_t n) const {
         return blocks_[first_block_[level] + n];
     }
 
@@ -132,11 +132,11 @@ private:
         for (; count % fan != 0; ++count) blocks_[first_block_[level] + count / fan].clear(count % fan);
     }
 
-    std::span<const Cluster<Oriented>> clusters_;
+    std::span<const BuildCluster<Oriented>> clusters_;
     double direction_;
     double per_weight_;
     std::vector<std::size_t> first_block_;  ///< of each level
-    std::vector<NeighbourBlock<Oriented>> blocks_;
+    std::vector<NeighborBlock<Oriented>> blocks_;
 };
 
 }  // namespace lightcuts::detail

@@ -5,31 +5,54 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <tuple>
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
-#include "../core/cone.hpp"
-#include "frame.hpp"
+#include "../../core/cone.hpp"
+#include "normalized_space.hpp"
 
 namespace lightcuts {
 
 /// The papers' dissimilarity of two clusters: the size of their union, I (alpha^2 + c^2 (1 - cos beta)^2), with its
 /// intensity I, the diagonal alpha of its box, and the half-angle beta of the smallest cone around both clusters'
-/// cones [Walter et al. 2005, Section 4]. Lengths are in units of the diagonal of all items' box.
+/// cones [Walter et al. 2005, Section 4].
 ///
 /// A factor 1 + 2^-42 per item orders what differs by rounding errors only: the smaller cluster comes first. Equal
 /// sizes are merged in the order of the number of items, the smallest item, and the other cluster's smallest item.
 struct ClusterSize {
-    double direction = 1;  ///< c for items with an axis, in units of the diagonal, at most 1e6; 0 ignores axes
+    /// c for items with an axis, in world units. Unset: the diagonal of the items' box. The papers take the diagonal of
+    /// the scene: give that where lights fill only a part of the scene, or they are merged by position too soon.
+    /// 0 ignores axes.
+    std::optional<double> direction_length = {};
 };
 
 namespace detail {
 
-/// What the greedy builder keeps of a cluster, in the builder's frame.
+/// Where the greedy builder measures: the space of the items, or in units of c if that is larger.
+struct GreedySpace {
+    NormalizedSpace space;
+    double direction = 0;  ///< c in the space, at most 1
+
+    /// pre: checked items and a checked length.
+    template <class Item>
+    static GreedySpace of(std::span<const Item> items, const ClusterSize& size) {
+        GreedySpace result{NormalizedSpace::of(items), 1};
+        if (size.direction_length) {
+            const double c = *size.direction_length;
+            if (c * result.space.per_length > 1) result.space.per_length = 1 / c;
+            result.direction = c * result.space.per_length;
+        }
+        return result;
+    }
+};
+
+/// What the greedy builder keeps of a cluster, in its space.
 template <bool Oriented>
-struct Cluster {
+struct BuildCluster {
     std::array<float, 3> lo, hi;
     double weight;
     std::uint32_t count;  ///< of items
@@ -37,7 +60,7 @@ struct Cluster {
 };
 
 template <>
-struct Cluster<true> : Cluster<false> {
+struct BuildCluster<true> : BuildCluster<false> {
     Cone cone;
     HalfAngle half;         ///< of the cone
     double inverse_length;  ///< of the axis as stored
@@ -55,7 +78,7 @@ struct Rank {
 
 /// Half of the angle between the axes of two cones, with a relative error of a few units of roundoff even where it is
 /// tiny: products of two floats are exact in double. Zero only for equal axes.
-inline HalfAngle half_between_axes(const Cluster<true>& a, const Cluster<true>& b) {
+inline HalfAngle half_between_axes(const BuildCluster<true>& a, const BuildCluster<true>& b) {
     if (a.cone.axis == b.cone.axis) return {0, 1};
     const glm::dvec3 u(a.cone.axis), v(b.cone.axis);
     const glm::dvec3 w = glm::cross(u, v);
@@ -72,7 +95,7 @@ inline HalfAngle half_between_axes(const Cluster<true>& a, const Cluster<true>& 
 
 /// 1 - cos beta of the smallest cone around two clusters' cones: beta = max(beta_a, beta_b, (beta_a + beta_b +
 /// angle) / 2), by the addition theorems alone. Relative error: a few units of roundoff.
-inline double merged_one_minus_cos(const Cluster<true>& a, const Cluster<true>& b) {
+inline double merged_one_minus_cos(const BuildCluster<true>& a, const BuildCluster<true>& b) {
     const HalfAngle sum = (a.half + b.half) + half_between_axes(a, b);  // beta, unless one cone holds the other
     double merged = 2;
     if (sum.sin >= 0) merged = sum.cos > 0 ? sum.sin * sum.sin / (1 + sum.cos) : 1 - sum.cos;
@@ -88,7 +111,8 @@ inline constexpr double growth_per_item = 0x1p-42;
 /// The dissimilarity. pre: a.id < b.id, so that it is symmetric to the last bit. Not inlined, so that all callers get
 /// the same bits.
 template <bool Oriented>
-[[gnu::noinline]] inline double union_size(const Cluster<Oriented>& a, const Cluster<Oriented>& b, double direction) {
+[[gnu::noinline]] inline double union_size(const BuildCluster<Oriented>& a, const BuildCluster<Oriented>& b,
+                                           double direction) {
     double size = 0;
     for (std::size_t i = 0; i < 3; ++i) {
         const double e = static_cast<double>(std::max(a.hi[i], b.hi[i])) -
@@ -103,29 +127,29 @@ template <bool Oriented>
 }
 
 template <bool Oriented>
-Rank rank(const Cluster<Oriented>& a, const Cluster<Oriented>& b, double direction) {
-    const Cluster<Oriented>& first = a.id < b.id ? a : b;
-    const Cluster<Oriented>& second = a.id < b.id ? b : a;
+Rank rank(const BuildCluster<Oriented>& a, const BuildCluster<Oriented>& b, double direction) {
+    const BuildCluster<Oriented>& first = a.id < b.id ? a : b;
+    const BuildCluster<Oriented>& second = a.id < b.id ? b : a;
     return {union_size(first, second, direction), a.count + b.count, first.id, second.id};
 }
 
 /// Fills what is derived from the cone.
-inline void set_cone(Cluster<true>& cluster, const Cone& cone) {
+inline void set_cone(BuildCluster<true>& cluster, const Cone& cone) {
     cluster.cone = cone;
     cluster.half = half_of(cone);
     cluster.inverse_length = 1 / glm::length(glm::dvec3(cone.axis));
 }
 
-/// The axis, normalised, in float.
-inline std::array<float, 3> unit_axis(const Cluster<true>& c) {
+/// The axis, normalized, in float.
+inline std::array<float, 3> unit_axis(const BuildCluster<true>& c) {
     const glm::vec3 axis(glm::dvec3(c.cone.axis) * c.inverse_length);
     return {axis.x, axis.y, axis.z};
 }
 
 /// The union. Does not depend on the order of arguments.
 template <bool Oriented>
-Cluster<Oriented> merge(const Cluster<Oriented>& a, const Cluster<Oriented>& b) {
-    Cluster<Oriented> c = a;
+BuildCluster<Oriented> merge(const BuildCluster<Oriented>& a, const BuildCluster<Oriented>& b) {
+    BuildCluster<Oriented> c = a;
     for (std::size_t i = 0; i < 3; ++i) {
         c.lo[i] = std::min(a.lo[i], b.lo[i]);
         c.hi[i] = std::max(a.hi[i], b.hi[i]);
@@ -143,10 +167,10 @@ Cluster<Oriented> merge(const Cluster<Oriented>& a, const Cluster<Oriented>& b) 
 
 /// pre: a checked item.
 template <bool Oriented, class Item>
-Cluster<Oriented> cluster_of(const Item& item, std::uint32_t index, const Frame& frame) {
-    Cluster<Oriented> c;
-    c.lo = c.hi = frame.position(item.position);
-    c.weight = frame.weight(item.weight);
+BuildCluster<Oriented> cluster_of(const Item& item, std::uint32_t index, const NormalizedSpace& space) {
+    BuildCluster<Oriented> c;
+    c.lo = c.hi = space.position(item.position);
+    c.weight = space.weight(item.weight);
     c.count = 1;
     c.id = index;
     if constexpr (Oriented) set_cone(c, cone_of(item.axis + glm::vec3(0.0f)));  // no negative zeros

@@ -1,4 +1,4 @@
-#include <lightcuts/tree/divide.hpp>
+#include <lightcuts/tree/build/divide.hpp>
 
 #include <atomic>
 #include <bit>
@@ -11,12 +11,12 @@
 
 #include <gtest/gtest.h>
 
-#include <lightcuts/tree/agglomerate.hpp>
+#include <lightcuts/tree/build/agglomerate.hpp>
 #include <lightcuts/tree/statistics.hpp>
 #include <lightcuts/tree/summary.hpp>
 #include <lightcuts/tree/validate.hpp>
 
-#include "tree/item_sets.hpp"
+#include "tree/build/item_sets.hpp"
 
 namespace {
 

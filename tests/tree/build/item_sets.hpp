@@ -12,7 +12,7 @@
 #include <glm/vec3.hpp>
 
 #include <lightcuts/core/invalid_input.hpp>
-#include <lightcuts/tree/item.hpp>
+#include <lightcuts/tree/build/item.hpp>
 
 #include "support/random.hpp"
 

@@ -14,11 +14,11 @@
 
 namespace lightcuts::detail {
 
-/// Eight clusters, or eight nodes of the neighbour tree, side by side for vector instructions. Of a node's clusters it
+/// Eight clusters, or eight nodes of the neighbor tree, side by side for vector instructions. Of a node's clusters it
 /// has the smallest upper corner, the largest lower corner and the smallest weight. When clusters merge, the first and
 /// the last only grow and the second only shrinks, so a node stays valid for the clusters that replace its own.
 template <bool Oriented>
-struct NeighbourBlock {
+struct NeighborBlock {
     static constexpr std::size_t lanes = 8;
     using Lanes = std::array<float, lanes>;
 
@@ -26,7 +26,7 @@ struct NeighbourBlock {
     std::array<Lanes, 3> most_lo;
     Lanes weight;
 
-    void set(std::size_t j, const Cluster<false>& c, double per_weight) {
+    void set(std::size_t j, const BuildCluster<false>& c, double per_weight) {
         for (std::size_t a = 0; a < 3; ++a) {
             least_hi[a][j] = c.hi[a];
             most_lo[a][j] = c.lo[a];
@@ -53,14 +53,14 @@ struct NeighbourBlock {
 };
 
 template <>
-struct NeighbourBlock<true> : NeighbourBlock<false> {
+struct NeighborBlock<true> : NeighborBlock<false> {
     std::array<Lanes, 3> axis;
     /// Sine and cosine of what to add to half the angle between axes: half a cluster's half-angle, or minus half the
     /// angle around a node's axis in which all its clusters' axes lie.
     Lanes sin, cos;
 
-    void set(std::size_t j, const Cluster<true>& c, double per_weight) {
-        NeighbourBlock<false>::set(j, c, per_weight);
+    void set(std::size_t j, const BuildCluster<true>& c, double per_weight) {
+        NeighborBlock<false>::set(j, c, per_weight);
         const std::array<float, 3> unit = unit_axis(c);
         for (std::size_t a = 0; a < 3; ++a) axis[a][j] = unit[a];
         sin[j] = static_cast<float>(c.half.sin);
@@ -68,7 +68,7 @@ struct NeighbourBlock<true> : NeighbourBlock<false> {
     }
 
     void clear(std::size_t j) {
-        NeighbourBlock<false>::clear(j);
+        NeighborBlock<false>::clear(j);
         for (Lanes& a : axis) a[j] = 0;
         sin[j] = 0;
         cos[j] = 1;
@@ -76,7 +76,7 @@ struct NeighbourBlock<true> : NeighbourBlock<false> {
 };
 
 /// Makes lane j of `parent` the node of all lanes of `child`.
-inline void enclose(const NeighbourBlock<false>& child, NeighbourBlock<false>& parent, std::size_t j) {
+inline void enclose(const NeighborBlock<false>& child, NeighborBlock<false>& parent, std::size_t j) {
     for (std::size_t a = 0; a < 3; ++a) {
         parent.least_hi[a][j] = *std::min_element(child.least_hi[a].begin(), child.least_hi[a].end());
         parent.most_lo[a][j] = *std::max_element(child.most_lo[a].begin(), child.most_lo[a].end());
@@ -84,8 +84,8 @@ inline void enclose(const NeighbourBlock<false>& child, NeighbourBlock<false>& p
     parent.weight[j] = *std::min_element(child.weight.begin(), child.weight.end());
 }
 
-inline void enclose(const NeighbourBlock<true>& child, NeighbourBlock<true>& parent, std::size_t j) {
-    enclose(static_cast<const NeighbourBlock<false>&>(child), static_cast<NeighbourBlock<false>&>(parent), j);
+inline void enclose(const NeighborBlock<true>& child, NeighborBlock<true>& parent, std::size_t j) {
+    enclose(static_cast<const NeighborBlock<false>&>(child), static_cast<NeighborBlock<false>&>(parent), j);
     std::array<float, 3> sum{};
     for (std::size_t a = 0; a < 3; ++a) {
         for (std::size_t k = 0; k < child.lanes; ++k) sum[a] += child.axis[a][k];
@@ -111,10 +111,10 @@ inline void enclose(const NeighbourBlock<true>& child, NeighbourBlock<true>& par
     parent.cos[j] = std::cos(around);
 }
 
-/// The cluster whose neighbours are sought, in float.
+/// The cluster whose neighbors are sought, in float.
 template <bool Oriented>
 struct Probe {
-    using Lanes = typename NeighbourBlock<Oriented>::Lanes;
+    using Lanes = typename NeighborBlock<Oriented>::Lanes;
 
     std::array<float, 3> lo, hi;
     float weight;
@@ -123,14 +123,14 @@ struct Probe {
     float spread = 0;        ///< 1 - cos of its half-angle
     float direction2 = 0;    ///< the metric's c^2
 
-    Probe(const Cluster<Oriented>& c, double direction, double per_weight)
-        : lo(c.lo), hi(c.hi), weight(NeighbourBlock<Oriented>::float_weight(c.weight, per_weight)) {
+    Probe(const BuildCluster<Oriented>& c, double direction, double per_weight)
+        : lo(c.lo), hi(c.hi), weight(NeighborBlock<Oriented>::float_weight(c.weight, per_weight)) {
         if constexpr (Oriented) {
             axis = unit_axis(c);
             sin = static_cast<float>(c.half.sin);
             cos = static_cast<float>(c.half.cos);
             spread = std::max(static_cast<float>(one_minus_cos(c.cone)), spread_margin);
-            direction2 = static_cast<float>(std::min(direction * direction, 1e6));
+            direction2 = static_cast<float>(direction * direction);
         }
     }
 
@@ -140,8 +140,8 @@ struct Probe {
     /// Lower bounds, up to a relative error below 4e-6, of the size of the union with any cluster of each lane.
     /// False if all are above `threshold`. Written without branches, and with memory that aliases nothing, so that
     /// compilers use vector instructions.
-    bool bound(const NeighbourBlock<Oriented>& b, float threshold, Lanes& bounds) const {
-        constexpr std::size_t lanes = NeighbourBlock<Oriented>::lanes;
+    bool bound(const NeighborBlock<Oriented>& b, float threshold, Lanes& bounds) const {
+        constexpr std::size_t lanes = NeighborBlock<Oriented>::lanes;
         const auto larger = [](float s, float t) { return s > t ? s : t; };
         const auto smaller = [](float s, float t) { return s < t ? s : t; };
         float diagonal2[lanes], weights[lanes], result[lanes];
@@ -190,7 +190,8 @@ struct Probe {
 private:
     static constexpr float root_error = 1.002f;
 
-    /// The square root from below, at most root_error too small: std::sqrt minds errno, so it is not vectorised.
+    /// The square root from below, at most root_error too small: std::sqrt sets errno, so compilers do not
+    /// vectorize it.
     static float root_below(float x) {
         const float r = std::bit_cast<float>(0x5f3759dfu - (std::bit_cast<std::uint32_t>(x) >> 1));
         return x * r * (1.5f - 0.5f * x * r * r);  // one step of Newton's method, which never exceeds the root

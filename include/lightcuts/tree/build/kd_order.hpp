@@ -19,10 +19,10 @@ public:
     static constexpr std::size_t fan = 8;
 
     /// Indices into `clusters`. cost: O(N log N).
-    static std::vector<std::uint32_t> of(std::span<const Cluster<Oriented>> clusters, double direction) {
+    static std::vector<std::uint32_t> of(std::span<const BuildCluster<Oriented>> clusters, double direction) {
         std::vector<Key> keys(clusters.size());
         for (std::size_t s = 0; s < clusters.size(); ++s) {
-            const Cluster<Oriented>& c = clusters[s];
+            const BuildCluster<Oriented>& c = clusters[s];
             for (std::size_t a = 0; a < 3; ++a) keys[s].coordinate[a] = 0.5f * (c.lo[a] + c.hi[a]);
             if constexpr (Oriented) {
                 const std::array<float, 3> axis = unit_axis(c);
@@ -30,7 +30,7 @@ public:
             }
             keys[s].index = static_cast<std::uint32_t>(s);
         }
-        sort(keys, static_cast<float>(std::min(direction, 1e6)));
+        sort(keys, static_cast<float>(direction));
         std::vector<std::uint32_t> order(keys.size());
         for (std::size_t s = 0; s < keys.size(); ++s) order[s] = keys[s].index;
         return order;

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+
+#include "build_range.hpp"
+#include "normalized_space.hpp"
+
+namespace lightcuts {
+
+/// Splitter of `divide`: halves a set at the median of the longest axis of its box, in three dimensions, or six for
+/// items with a direction [Walter et al. 2006, Section 5]. The tree has depth ceil(log2 N).
+struct LongestAxis {
+    /// The length in world units that one unit of a direction's coordinates counts for. Unset: an eighth of the unit of
+    /// the space, which is the diagonal of the items' box or, in `divide_into`, what the caller chose. The paper takes
+    /// an eighth of the scene's diagonal: give that where lights fill only a part of the scene. 0 ignores directions.
+    std::optional<double> direction_length = {};
+
+    /// See `Splitter`. cost: O(items).
+    template <std::size_t Dimensions>
+    Split<Dimensions> split(const BuildRange<Dimensions>& range, const NormalizedSpace& space) const {
+        using Item = BuildItem<Dimensions>;
+        const auto bounds = BuildBounds<Dimensions>::of(range.items);
+        const float direction_share = space.direction_share(direction_length, 0.125f);
+        std::size_t longest = 0;
+        float length = -1;
+        for (const std::size_t a : Item::axes) {
+            const float l = (bounds.hi[a] - bounds.lo[a]) * (a < 4 ? 1.0f : direction_share);
+            if (l > length) {
+                length = l;
+                longest = a;
+            }
+        }
+        const std::size_t left = range.items.size() / 2;
+        const auto middle = range.items.begin() + static_cast<std::ptrdiff_t>(left);
+        // Ties are broken by item, so that the halves are the same sets whatever the standard library does.
+        std::nth_element(range.items.begin(), middle, range.items.end(), [longest](const Item& a, const Item& b) {
+            return a.lane[longest] != b.lane[longest] ? a.lane[longest] < b.lane[longest] : a.item() < b.item();
+        });
+        return split_at(range, left);
+    }
+};
+
+}  // namespace lightcuts

@@ -1,0 +1,16 @@
+// expect: deleted
+#include <utility>
+#include <vector>
+
+#include <lightcuts/lightcuts.hpp>
+
+struct Lamps {
+    std::vector<lightcuts::OmniLight<>> lights;
+    lightcuts::LightTree<lightcuts::OmniLight<>> tree{lights};
+};
+
+int main() {
+    Lamps lamps;
+    const Lamps others = lamps;
+    return others.tree.empty() ? 0 : 1;
+}
