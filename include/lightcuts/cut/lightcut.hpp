@@ -79,15 +79,18 @@ ClampedTotal<S> clamped_total(const Refinement<CutNode<S, true>>& refinement, co
     // Converged refinements have found it, unless they had lights in mind which did not arrive.
     const bool is_found = refinement.stop_reason() == StopReason::converged && totals.clamp.is_final;
     if (!clamp.is_automatic() || is_found) { return {totals.total, totals.clamp.threshold, totals.clamp.ratio}; }
-    return clamped_total<S>(clamp, {}, totals.total, 1e-6, [&](auto&& f) {
+    const auto visit = [&](auto&& f) {
         refinement.for_each([&](const auto& n) { f(n.estimate, static_cast<double>(n.lights)); });
-    });
+    };
+    return clamped_total<S>(clamp, effective_ratios<S>(clamp, totals.clamp.counts, visit), {}, totals.total, 1e-6,
+                            visit);
 }
 
 /// How many clamped lights arrive: those that were looked at for certain, and others where there are bounds.
 template <Spectrum S>
-ArrivingLights<S> arriving_lights(const Refinement<CutNode<S, true>>& refinement, const ClampOptions& clamp) {
-    ArrivingLights<S> arriving{LightCount<S>(clamp), LightCount<S>(clamp)};
+ArrivingLights<S> arriving_lights(const Refinement<CutNode<S, true>>& refinement, const CutClamp<S>& clamp) {
+    const LightCount<S> none(clamp.options, clamp.counts);
+    ArrivingLights<S> arriving{none, none};
     bool known = false, most_known = false;
     refinement.for_each([&](const CutNode<S, true>& n) {
         if (known || !(n.lights < std::numeric_limits<float>::infinity())) return;
@@ -96,10 +99,8 @@ ArrivingLights<S> arriving_lights(const Refinement<CutNode<S, true>>& refinement
             arriving.most.add(single ? n.estimate : n.bound, static_cast<double>(n.lights));
             most_known = arriving.most.is_known();
         }
-        if (single || n.all_channels) {
-            arriving.least.add(n.estimate, 1.0);
-            known = arriving.least.is_known();
-        }
+        arriving.least.add(n.estimate, 1.0, single ? 1.0 : representative_part(n));
+        known = arriving.least.is_known();
     });
     return arriving;
 }
@@ -123,7 +124,7 @@ CutResult<S> cut_result(const Refinement<CutNode<S, true>>& refinement, const Cu
     ChannelSums<S> radiance{}, bound{};
     if (clamp.is_automatic()) {
         radiance = clamped.total;
-        bound = clamped_error<S>(clamp, clamped, arriving_lights(refinement, clamp), [&](auto&& f) {
+        bound = clamped_error<S>(clamp, clamped, arriving_lights(refinement, totals.clamp), [&](auto&& f) {
             refinement.for_each([&](const auto& n) { f(n.estimate, n.bound, static_cast<double>(n.lights)); });
         });
     } else {

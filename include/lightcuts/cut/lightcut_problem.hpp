@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -19,7 +20,7 @@ namespace lightcuts {
 
 namespace detail {
 struct LightCountTag {};
-struct AllChannelsTag {};
+struct PartTag {};
 struct ClampTag {};
 }  // namespace detail
 
@@ -28,7 +29,7 @@ struct ClampTag {};
 template <Spectrum S, bool Clamps = false>
 struct CutNode {
     using light_count = std::conditional_t<Clamps, float, detail::Absent<detail::LightCountTag>>;
-    using channel_mark = std::conditional_t<Clamps, bool, detail::Absent<detail::AllChannelsTag>>;
+    using part_exponent = std::conditional_t<Clamps, std::uint8_t, detail::Absent<detail::PartTag>>;
 
     std::uint32_t node = 0;            ///< in its tree
     std::uint32_t representative = 0;  ///< leaf of the tree that stands for the cluster
@@ -39,11 +40,35 @@ struct CutNode {
     std::uint8_t kind = 0;             ///< tree of the forest
     bool bounded = false;              ///< `unit_bound` is the cluster's own
     bool queried = false;              ///< `terms` waits for the representative, or for its shadow ray
-    /// The representative shines in every channel; the cluster may shine in others than it.
-    [[no_unique_address]] channel_mark all_channels{};
+    /// In every channel the representative has at least 2^(1-this) of the cluster's intensity; 0: it may have none.
+    [[no_unique_address]] part_exponent part{};
     /// Of the cluster; infinite if its kind is not clamped.
     [[no_unique_address]] light_count lights{};
 };
+
+namespace detail {
+
+/// The least part of the cluster's intensity, in any channel, that is the representative's.
+template <Spectrum S>
+double representative_part(const CutNode<S, true>& n) {
+    const std::uint64_t exponent = 1024u - n.part;
+    return n.part > 0 ? 0.999999 * std::bit_cast<double>(exponent << 52) : 0.0;
+}
+
+/// `CutNode::part`, from the exponents of the two intensities: it may be four times too small.
+template <Spectrum S>
+std::uint8_t representative_part(const S& representative, const S& cluster) {
+    const auto exponent = [](float x) { return static_cast<int>(std::bit_cast<std::uint32_t>(x) >> 23); };
+    int most = 0;
+    for (int c = 0; c < channels_of<S>; ++c) {
+        const int some = exponent(channel(representative, c)), all = exponent(channel(cluster, c));
+        if (some == 0 && channel(cluster, c) > 0.0f) return 0;  // none, or denormal
+        most = all - some > most ? all - some : most;
+    }
+    return static_cast<std::uint8_t>(most + 2 < 256 ? most + 2 : 0);
+}
+
+}  // namespace detail
 
 /// How the contributions to a cut are clamped at the moment.
 template <Spectrum S>
@@ -54,6 +79,7 @@ struct CutClamp {
     detail::ChannelSums<S> least{};      ///< least shares since the last mark
     detail::ChannelSums<S> total{};      ///< of which the threshold was made
     detail::ChannelSums<S> ratio{};      ///< by the lights that have arrived; infinite while there are none
+    detail::ChannelSums<S> counts{};     ///< of a light, per radiance: see `counts_per_radiance`
     bool is_final = false;               ///< the threshold was made by that ratio, not with others in mind
 };
 
@@ -102,6 +128,7 @@ public:
             totals_.clamp.options = options_.clamp;
             totals_.clamp.threshold.fill(static_cast<double>(options_.clamp.radiance));
             totals_.clamp.ratio.fill(std::numeric_limits<double>::infinity());
+            if (options_.clamp.is_automatic()) totals_.clamp.counts = detail::counts_per_radiance(forest_);
             set_shares();
         }
         const bool few = has_few_lights();
@@ -367,7 +394,10 @@ private:
             n.terms = terms[static_cast<std::size_t>(i)];
             if constexpr (ClampedLight<L>) {
                 n.terms = detail::at_most(n.terms, options_.clamp.terms);
-                n.all_channels = channel_min(tree.clusters()[n.representative].intensity) > 0.0f;
+                if (options_.clamp.is_automatic()) {
+                    n.part = detail::representative_part(tree.clusters()[n.representative].intensity,
+                                                         tree.clusters()[n.node].intensity);
+                }
             }
             n.queried = !is_black(n.terms);
             if (!n.queried) continue;
@@ -396,7 +426,7 @@ private:
         node& n = add_node(tree, parent.kind, index, parent.unit_bound, out);
         n.representative = parent.representative;
         n.terms = parent.terms;
-        if constexpr (clamps) n.all_channels = parent.all_channels;
+        if constexpr (clamps) n.part = parent.part;
         n.estimate = finite_product(n.terms, tree.clusters()[index].intensity);
     }
 
@@ -542,7 +572,8 @@ private:
     template <class Visit>
     detail::ChannelSums<S> count_anew(const Visit& visit) requires clamps {
         auto& ratio = totals_.clamp.ratio;
-        ratio = detail::effective_ratios<S>(options_.clamp, [&](auto&& f) {
+        const auto& counts = totals_.clamp.counts;
+        ratio = detail::effective_ratios<S>(options_.clamp, counts, [&](auto&& f) {
             visit([&](const node& n) { f(n.estimate, static_cast<double>(n.lights)); });
         });
         bool many = true;
@@ -554,11 +585,14 @@ private:
             for (std::size_t c = 0; c < dark.size(); ++c) {
                 const int i = static_cast<int>(c);
                 const auto count = static_cast<double>(n.lights);
-                if (channel(n.estimate, i) > 0.0f) {
-                    lights[c] += count;
-                } else if (channel(n.bound, i) > 0.0f) {
-                    dark[c] += count;
-                    dark_clusters[c] += 1.0;
+                const auto of = [&](float radiance) {
+                    return detail::counted_lights(static_cast<double>(radiance), count, counts[c]);
+                };
+                const double arrived = of(channel(n.estimate, i)), most = of(channel(n.bound, i));
+                lights[c] += arrived;
+                if (most > arrived) {
+                    dark[c] += most - arrived;
+                    dark_clusters[c] += (most - arrived) / count;
                 }
             }
         });

@@ -8,11 +8,13 @@ namespace detail {
 
 /// The contributions of unclamped lights and the list of the others, added up under the threshold of `clamp`.
 template <Spectrum S>
-void add_clamped(const ClampOptions& clamp, const RadianceSum<S>& unclamped, std::span<const S> clamped,
-                 Estimate<S>& result) {
-    const auto solved = clamped_total<S>(clamp, unclamped.sum, unclamped.sum, 1e-7, [&](auto&& f) {
+void add_clamped(const ClampOptions& clamp, const ChannelSums<S>& counts, const RadianceSum<S>& unclamped,
+                 std::span<const S> clamped, Estimate<S>& result) {
+    const auto visit = [&](auto&& f) {
         for (const S& contribution : clamped) f(contribution, 1.0);
-    });
+    };
+    const auto solved = clamped_total<S>(clamp, effective_ratios<S>(clamp, counts, visit), unclamped.sum, unclamped.sum,
+                                         1e-7, visit);
     result.radiance = RadianceSum<S>{solved.total}.value();
     result.clamp_threshold = make_spectrum<S>([&](int c) { return solved.threshold[static_cast<std::size_t>(c)]; });
 }
@@ -65,7 +67,10 @@ Estimate<forest_spectrum<Lights>> exhaustive(const Lights& lights, const Receive
     flush();
     result.radiance = sum.value();
     if constexpr (forest_of<Lights>::clamps) {
-        if (clamp.has_threshold()) detail::add_clamped(clamp, sum, std::span<const S>(scratch.clamped), result);
+        if (clamp.has_threshold()) {
+            detail::add_clamped(clamp, detail::counts_per_radiance(forest), sum, std::span<const S>(scratch.clamped),
+                                result);
+        }
     }
     return result;
 }
