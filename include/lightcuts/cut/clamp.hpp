@@ -83,6 +83,7 @@ inline double clamp_threshold(const ClampOptions& clamp, double ratio, double to
 template <class Forest>
 ChannelSums<typename Forest::spectrum> counts_per_radiance(const Forest& forest) {
     constexpr double next_to_nothing = 1e-9;
+    constexpr double in_range = 0x1p-100;  // what is a little less would be rounded as denormals are
     ChannelSums<typename Forest::spectrum> distant{}, near{};
     Box box;
     forest.for_each([&](std::uint32_t, const auto& tree) {
@@ -100,7 +101,8 @@ ChannelSums<typename Forest::spectrum> counts_per_radiance(const Forest& forest)
     const double size2 = diagonal2(box);
     ChannelSums<typename Forest::spectrum> counts{};
     for (std::size_t c = 0; c < near.size(); ++c) {
-        counts[c] = 1.0 / (distant[c] + (near[c] > 0.0 ? near[c] / size2 : 0.0));
+        const double whole = distant[c] + (near[c] > 0.0 ? near[c] / size2 : 0.0);
+        counts[c] = 1.0 / (whole < in_range ? in_range : whole);
     }
     return counts;
 }

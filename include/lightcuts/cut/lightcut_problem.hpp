@@ -497,7 +497,13 @@ private:
             if (visibility == 1.0f) return;
         }
         n.terms = n.terms * visibility;
-        n.estimate = n.estimate * visibility;
+        if (!detail::is_saturated(n.estimate)) {
+            n.estimate = n.estimate * visibility;
+        } else {
+            forest_.visit(n.kind, [&](const auto& tree) {
+                n.estimate = finite_product(n.terms, tree.clusters()[n.node].intensity);
+            });
+        }
     }
 
     void add(const node& n, double sign) {
