@@ -60,10 +60,13 @@ struct ClampedTotal {
 /// n each have no total but 0. Continuous.
 inline double effective_ratio(const ClampOptions& clamp, double lights) {
     const auto stated = static_cast<double>(clamp.ratio);
-    if (!(lights > 2.0)) return std::numeric_limits<double>::infinity();
+    // A little more than 2 / n, so that it is all the same whether to a whole number of lights next to nothing is
+    // added.
+    constexpr double two = 2.0 * (1.0 + 0x1p-30);
+    if (!(lights > two)) return std::numeric_limits<double>::infinity();
     // Nearly 2 / ratio lights: a little less than 2 / n, since the ratio was rounded to float, and 2 / 200 is not above
     // 0.01.
-    const double least = 2.0 / lights, nearby = 0x1p-22 * stated - 0x1p-12 * (least - stated);
+    const double least = two / lights, nearby = 0x1p-22 * stated - 0x1p-12 * (least - stated);
     const double lowered = nearby > 0.0 ? least - nearby : least;
     const double ratio = lowered > stated ? lowered : stated;
     return ratio < 1.0 ? ratio : std::numeric_limits<double>::infinity();
