@@ -12,6 +12,10 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_L
   list(APPEND lightcuts_warnings -Wno-restrict -Wno-maybe-uninitialized)
 endif()
 
+# What compilers may contract into fused multiply-adds; the presets `native` and `native-clang` allow all, to test that
+# bounds stay bounds.
+set(LIGHTCUTS_FP_CONTRACT off CACHE STRING "-ffp-contract of the project's own programs: off, on or fast")
+
 # C++20 without extensions, under the warnings. Products and sums are rounded one by one, so that results are the same
 # bits whatever the compiler and -march; a processor with FMA would save 3 % of a picture's time.
 function(lightcuts_own_target target)
@@ -19,7 +23,7 @@ function(lightcuts_own_target target)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
   target_compile_options(${target} PRIVATE ${lightcuts_warnings})
   if(NOT MSVC)
-    target_compile_options(${target} PRIVATE -ffp-contract=off)
+    target_compile_options(${target} PRIVATE -ffp-contract=${LIGHTCUTS_FP_CONTRACT})
   endif()
 endfunction()
 

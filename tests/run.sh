@@ -3,7 +3,7 @@
 #
 #   tests/run.sh              all sections
 #   tests/run.sh --quick      format and gcc only
-#   tests/run.sh gcc tidy     these sections: format gcc tidy clang asan tsan docs
+#   tests/run.sh gcc tidy     these sections: format gcc tidy clang native asan tsan docs
 #   tests/run.sh fuzz         a section that is not among the usual ones; LIGHTCUTS_FUZZ_SECONDS (60) for each target
 #   tests/run.sh --list       says what each section does
 #
@@ -15,7 +15,7 @@ cd "$root"
 source .ci/packages.sh
 build=${LIGHTCUTS_BUILD:-$root/build}
 jobs=$(nproc)
-sections=(format gcc tidy clang asan tsan docs)
+sections=(format gcc tidy clang native asan tsan docs)
 more_sections=(fuzz)
 
 usage() { sed -n '2,/^set/p' "$root/tests/run.sh" | sed -n 's/^# \{0,1\}//p'; }
@@ -26,6 +26,7 @@ format  clang-format over all sources
 gcc     g++, Release, everything: tests, examples, renderer, compile-time failures, consumers, benchmarks (built)
 tidy    clang-tidy over the headers
 clang   clang++, Release: the library's tests
+native  g++ and clang++ for this very processor, products and sums contracted: the tests of bounds and cuts
 asan    AddressSanitizer and UndefinedBehaviorSanitizer: the library's tests
 tsan    ThreadSanitizer: the library's tests that use threads
 docs    Doxygen
@@ -141,6 +142,21 @@ section_tidy() {
 }
 
 section_clang() { compile_and_test clang clang++ -L unit; }
+
+# What contraction may break: numerics, and laws about them.
+section_native() {
+    local preset
+    for preset in native native-clang; do
+        local compiler=g++
+        if [ "$preset" = native-clang ]; then
+            compiler=clang++
+        fi
+        if ! compile "$preset" "$compiler" --target test-core test-bound test-cut test-laws; then
+            check "$preset: build" false
+        fi
+        run_tests "$preset" -L '^(core|bound|cut|laws)$'
+    done
+}
 
 section_asan() { compile_and_test asan-ubsan g++ -L unit; }
 

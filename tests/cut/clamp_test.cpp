@@ -64,18 +64,24 @@ double sum_under(double fixed, const std::vector<Contribution>& all, double thre
 }
 
 /// The threshold that is stated: a share of the total, but twice the mean of few lights; none if that is all.
-double stated_threshold(const ClampOptions& clamp, const std::vector<Contribution>& all, double total) {
+double stated_threshold(const ClampOptions& clamp, const std::vector<Contribution>& all, double total,
+                        double whole = 0.0) {
     double lights = 0.0;
-    for (const Contribution& c : all) lights += c.raw > 0.0f && c.lights < infinity ? c.lights : 0.0;
+    for (const Contribution& c : all) {
+        if (c.raw > 0.0f && c.lights < infinity) lights += std::min(c.lights, static_cast<double>(c.raw) / whole);
+    }
     const double ratio = std::max(static_cast<double>(clamp.ratio), 2.0 / lights);
     return std::min(ratio < 1.0 ? ratio * total : infinity, static_cast<double>(clamp.radiance));
 }
 
+/// `whole`: radiance of a light that counts as one. By default, each that arrives.
 detail::ClampedTotal<float> solve(const ClampOptions& clamp, double fixed, const std::vector<Contribution>& all,
-                                  double guess = 0.0, double tolerance = 1e-9) {
-    return detail::clamped_total<float>(clamp, {fixed}, {guess}, tolerance, [&](auto&& f) {
+                                  double guess = 0.0, double tolerance = 1e-9, double whole = 0.0) {
+    const auto visit = [&](auto&& f) {
         for (const Contribution& c : all) f(c.raw, c.lights);
-    });
+    };
+    return detail::clamped_total<float>(clamp, detail::effective_ratios<float>(clamp, {1.0 / whole}, visit), {fixed},
+                                        {guess}, tolerance, visit);
 }
 
 // k spikes among n lights of 1 beside a fixed D: total = D + n - k + k ratio total.
@@ -187,9 +193,10 @@ TEST(ClampedTotal, SolvesItsEquationFromAnyGuess) {
         const ClampOptions clamp{.radiance = random.chance(0.5) ? std::numeric_limits<float>::infinity()
                                                                 : static_cast<float>(random.decades(-3.0, 3.0)),
                                  .ratio = static_cast<float>(random.decades(-4.0, -0.5))};
-        const auto solved = solve(clamp, fixed, all);
+        const double whole = random.chance(0.3) ? 0.0 : random.decades(-8.0, 4.0);
+        const auto solved = solve(clamp, fixed, all, 0.0, 1e-9, whole);
         const double total = solved.total[0];
-        const double expected = stated_threshold(clamp, all, total);
+        const double expected = stated_threshold(clamp, all, total, whole);
         if (expected < infinity) {
             EXPECT_NEAR(solved.threshold[0], expected, 2e-7 * expected);
         } else {
@@ -199,9 +206,9 @@ TEST(ClampedTotal, SolvesItsEquationFromAnyGuess) {
         EXPECT_TRUE(total > 0.0 || sum_under(fixed, all, infinity) == 0.0) << "light is not clamped to nothing";
         // The largest root: beyond it the sum is below the total.
         const double beyond = 1.001 * total + 1e-9;
-        EXPECT_LT(sum_under(fixed, all, stated_threshold(clamp, all, beyond)), beyond);
+        EXPECT_LT(sum_under(fixed, all, stated_threshold(clamp, all, beyond, whole)), beyond);
         for (const double guess : {1e-9, 0.3 * total, 0.999 * total, total, 1.5 * total, 1e12}) {
-            EXPECT_NEAR(solve(clamp, fixed, all, guess).total[0], total, 1e-6 * total) << guess;
+            EXPECT_NEAR(solve(clamp, fixed, all, guess, 1e-9, whole).total[0], total, 1e-6 * total) << guess;
         }
     }
 }
@@ -266,19 +273,21 @@ TEST(ClampedError, BoundsTheDifferenceOfTotalsWithThresholdsOfTheirOwn) {
         const ClampOptions clamp{.radiance = random.chance(0.7) ? std::numeric_limits<float>::infinity()
                                                                 : static_cast<float>(random.decades(-2.0, 1.0)),
                                  .ratio = static_cast<float>(random.decades(-3.0, -1.0))};
-        const auto cut = detail::clamped_total<float>(clamp, {}, {}, 1e-9, [&](auto&& f) {
-            for (const Node& n : nodes) f(n.estimate, n.lights);
-        });
-        const auto sum = detail::clamped_total<float>(clamp, {}, {}, 1e-9, [&](auto&& f) {
-            for (const Node& n : nodes) {
-                for (const float light : n.truth) f(light, n.lights < infinity ? 1.0 : infinity);
-            }
-        });
-        detail::ArrivingLights<float> arriving{detail::LightCount<float>(clamp), detail::LightCount<float>(clamp)};
+        std::vector<Contribution> estimates, lights;
+        for (const Node& n : nodes) {
+            estimates.push_back({n.estimate, n.lights});
+            for (const float light : n.truth) lights.push_back({light, n.lights < infinity ? 1.0 : infinity});
+        }
+        const double whole = random.chance(0.3) ? 0.0 : random.decades(-8.0, 1.0);
+        const auto cut = solve(clamp, 0.0, estimates, 0.0, 1e-9, whole);
+        const auto sum = solve(clamp, 0.0, lights, 0.0, 1e-9, whole);
+        const detail::LightCount<float> none(clamp, {1.0 / whole});
+        detail::ArrivingLights<float> arriving{none, none};
         for (const Node& n : nodes) {
             if (n.lights == infinity) continue;
-            arriving.least.lights[0] += n.estimate > 0.0f ? 1.0 : 0.0;
-            arriving.most.lights[0] += n.bound > 0.0f ? n.lights : n.estimate > 0.0f ? 1.0 : 0.0;
+            // Of a cluster its representative is known, the first of those that arrive.
+            arriving.least.add(n.estimate > 0.0f ? n.truth[0] : 0.0f, 1.0);
+            arriving.most.add(n.bound > 0.0f ? n.bound : n.estimate, n.lights);
         }
         const double truth = sum.total[0];
         const double error = detail::clamped_error<float>(clamp, cut, arriving, [&](auto&& f) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <glm/common.hpp>
 
 #include <lightcuts/cut/lightcut.hpp>
 #include <lightcuts/estimate/exhaustive.hpp>
@@ -58,20 +59,31 @@ std::vector<Virtual> virtual_lights(Room<V>& room, std::size_t n, const std::vec
     return lights;
 }
 
-/// How many of `lights` arrive, one after the other.
+/// How many of `lights` arrive, one after the other, each as one, or as a part if it adds next to nothing.
 template <class M, class Oracle>
-std::array<int, 3> arriving(const std::vector<Virtual>& lights, const Receiver<M>& receiver, const Oracle& oracle) {
-    std::array<int, 3> count{};
+std::array<double, 3> arriving(const std::vector<Virtual>& lights, const Receiver<M>& receiver, const Oracle& oracle,
+                               float limit) {
+    Box box;
+    glm::dvec3 intensity(0.0);
     for (const Virtual& light : lights) {
-        const V terms = unshadowed_terms(receiver, light) * oracle(receiver, light);
-        for (int c = 0; c < 3; ++c) count[static_cast<std::size_t>(c)] += terms[c] * light.intensity[c] > 0.0f ? 1 : 0;
+        box = merge(box, box_of(light.position));
+        intensity += glm::dvec3(light.intensity);
+    }
+    const glm::dvec3 whole = 1e-9 * intensity / diagonal2(box);
+    std::array<double, 3> count{};
+    for (const Virtual& light : lights) {
+        const V terms = glm::min(unshadowed_terms(receiver, light), V(limit)) * oracle(receiver, light);
+        for (int c = 0; c < 3; ++c) {
+            const double radiance = static_cast<double>(terms[c] * light.intensity[c]);
+            count[static_cast<std::size_t>(c)] += radiance > 0.0 ? std::min(1.0, radiance / whole[c]) : 0.0;
+        }
     }
     return count;
 }
 
 /// The share of the total that one of `lights` may add, as it is stated; infinite if it may add all.
-float stated_ratio(const ClampOptions& clamp, int lights) {
-    const float ratio = std::max(clamp.ratio, 2.0f / static_cast<float>(lights));
+float stated_ratio(const ClampOptions& clamp, double lights) {
+    const float ratio = std::max(clamp.ratio, static_cast<float>(2.0 / lights));
     return ratio < 1.0f ? ratio : infinity;
 }
 
@@ -85,7 +97,7 @@ void expect_error_within_bound(const Forest& forest, const std::vector<Virtual>&
     EstimateScratch<V> scratch;
     for (const auto& receiver : receivers) {
         const Estimate<V> exact = exhaustive(forest, receiver, scalar, scratch, options.clamp);
-        const std::array<int, 3> lights = arriving(indirect, receiver, scalar);
+        const std::array<double, 3> lights = arriving(indirect, receiver, scalar, options.clamp.terms);
         Lightcut cut(forest, receiver, batched, options);
         // At every step, not only at the last.
         for (bool more = true; more; more = cut.step()) {
@@ -110,7 +122,7 @@ void expect_error_within_bound(const Forest& forest, const std::vector<Virtual>&
             }
             // A cut does not know how many lights arrive: from none to all.
             const float ratio = stated_ratio(options.clamp, lights[static_cast<std::size_t>(c)]);
-            const float least = stated_ratio(options.clamp, static_cast<int>(indirect.size()));
+            const float least = stated_ratio(options.clamp, static_cast<double>(indirect.size()));
             if (ratio < infinity) {
                 EXPECT_NEAR(exact.clamp_threshold[c], std::min(ratio * exact.radiance[c], options.clamp.radiance),
                             1e-5f * exact.clamp_threshold[c]);

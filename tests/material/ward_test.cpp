@@ -1,6 +1,7 @@
 #include <lightcuts/material/ward.hpp>
 
 #include <cmath>
+#include <limits>
 
 #include <gtest/gtest.h>
 #include <lightcuts/material/material.hpp>
@@ -92,6 +93,16 @@ TEST(Ward, IsBlackFromBelowAndForLightsBelow) {
     EXPECT_EQ(0.0f, above.evaluate({0.6f, 0.0f, -0.8f}));
     EXPECT_EQ(0.0f, above.upper_bound({{-1, -1, -2}, {1, 1, 0}}));
     EXPECT_EQ(0.0f, quick_bound(above, {{-1, -1, -2}, {1, 1, -1e-5}}));
+}
+
+// Without limit at grazing views, but a number: of no color it is none.
+TEST(Ward, IsFiniteAtGrazingViews) {
+    for (const float cosine : {1e-3f, 1e-10f, 1e-20f, 1e-30f, 1e-38f, 1e-45f}) {
+        const Ward<glm::vec3, WardDuer> m(up, view_at(cosine), {1.0f, 0.5f, 0.0f}, 1e-3f);
+        const glm::vec3 value = m.evaluate(glm::vec3(-view_at(cosine).x, 0.0f, cosine));
+        EXPECT_TRUE(value.x > 0.0f && value.x <= std::numeric_limits<float>::max()) << cosine;
+        EXPECT_EQ(value.z, 0.0f) << cosine;
+    }
 }
 
 TEST(Ward, BoundOfOneDirectionIsNearlyExact) {

@@ -61,10 +61,12 @@ inline double angle_between(const glm::dvec3& a, const glm::dvec3& b) {
     return 2.0 * std::atan2(glm::length(s - t), glm::length(s + t));
 }
 
-/// True iff `direction` lies in `c`; pre: `direction` is not zero.
+/// True iff `direction` lies in `c`, within 1e-15 radians: the rounding of unit vectors. pre: `direction` is not zero.
 inline bool contains(const Cone& c, const glm::dvec3& direction) {
+    if (is_empty(c)) return false;
+    const double reach = std::sqrt(static_cast<double>(c.sin2_half)) + 4.0 * unit_roundoff;
     const glm::dvec3 apart = glm::normalize(direction) - unit_axis(c);
-    return 0.25 * detail::dot(apart, apart) <= static_cast<double>(c.sin2_half) || is_whole_sphere(c);
+    return 0.25 * detail::dot(apart, apart) <= reach * reach || is_whole_sphere(c);
 }
 
 namespace detail {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include <glm/vec3.hpp>
@@ -12,7 +14,7 @@
 namespace lightcuts {
 
 /// An upper bound and the point of the box where it is (nearly) attained: `value` exceeds the maximum by a relative
-/// `tolerance` at most, if the iteration was not cut short.
+/// `tolerance`, or 1e-14, at most, if the iteration was not cut short.
 struct PowerBound {
     double value;
     glm::dvec3 at;
@@ -48,12 +50,6 @@ inline double quadratic_root(double c, double b, double a) {
     return numerator / denominator;
 }
 
-/// Whether c(s), see `max_power`, is within the tolerance: h at most `tolerance` q2 above zero, `tolerance` e2 below,
-/// where e2 is at most d^k |q|^(2-k). One comparison, because nobody can predict the sign of h.
-constexpr bool is_small(double h, double tolerance, double q2, double e2) {
-    return larger(h * e2, -h * q2) <= tolerance * q2 * e2;
-}
-
 /// The exponent k of a bound as a constant, and the powers of |p| that go with it, without `pow`.
 template <int K>
 struct FixedExponent {
@@ -79,9 +75,9 @@ struct FixedExponent {
         if constexpr (K == 2) return 1.0 / std::sqrt(d2);
         if constexpr (K == 3) return 1.0 / d2;
     }
-    static bool is_small(double h, double tolerance, double q2, double d2) {
-        return detail::is_small(h, tolerance, q2, K <= 2 ? d2 : d2 * d2 / q2);
-    }
+    /// x d^k |q|^(2-k) over `per(q2)`, from d^2
+    static double scaled(double x, double d2) { return K == 3 ? x * d2 * d2 : x * d2; }
+    static double per(double q2) { return K == 3 ? q2 : 1.0; }
     /// The positive s where c - b s - a s^2 = 0
     static double root(double c, double b, double a) {
         if constexpr (K == 1) return c / b;
@@ -97,11 +93,16 @@ struct RealExponent {
     double ratio(double q2, double x) const { return std::pow(q2, 1.0 - 0.5 * k) / x; }
     double inverse(double d2) const { return std::pow(d2, -0.5 * k); }
     double inverse_less_one(double d2) const { return std::pow(d2, 0.5 - 0.5 * k); }
-    bool is_small(double h, double tolerance, double q2, double d2) const {
-        return detail::is_small(h, tolerance, q2, k <= 2.0 ? d2 : std::pow(d2 / q2, 0.5 * k) * q2);
-    }
+    double scaled(double x, double d2) const { return x * (k <= 2.0 ? d2 : std::pow(d2, 0.5 * k)); }
+    double per(double q2) const { return k <= 2.0 ? 1.0 : std::pow(q2, 0.5 * k - 1.0); }
     double root(double c, double b, double a) const { return quadratic_root(c, b, a); }
 };
+
+/// 1 if the numbers differ, else 0; without a branch. Bits, since a difference of products may be contracted.
+inline double differ(double x, double y) {
+    const std::uint64_t other = std::bit_cast<std::uint64_t>(x) ^ std::bit_cast<std::uint64_t>(y);
+    return static_cast<double>(other != 0);
+}
 
 /// The vertex of the box farthest along v, within rounding; without branches.
 inline glm::dvec3 vertex_along(const glm::dvec3& v, const OffsetBox& b) {
@@ -128,10 +129,17 @@ inline double start_of(const glm::dvec3& v, const OffsetBox& b, const glm::dvec3
 /// F(p) = c |p|^k - v.p with c = |q|^(2-k) / (k s) is convex with gradient (q - s v) / s at q, and projection makes
 /// (q - s v).(p - q) >= 0 in the box. So F >= F(q) = h / (k s), that is, v.p / |p|^k <= c + max(0, -h) / (k s dmin^k):
 /// every s gives a bound, and the iteration towards h = 0, where it is exact, may stop at any time.
+///
+/// Rounding: where |q| is far above dmin, an error of h that is small against |q|^2 is large in the bound. So h is
+/// computed as C - k s M - (k-1) s^2 A, with C = |q|^2 and M = v.q summed over the clamped coordinates alone and
+/// A = |v|^2 over the others, less what its rounding may be; then it is certain that it is not negative. In coordinates
+/// that are not clamped q is s v rounded: the certificate is for a vector whose coordinates are within a unit roundoff
+/// of those of v, which changes v.p / |p|^k by at most |v| dmin^(1-k) unit roundoffs. `slack` adds them.
 template <class Exponent>
 inline PowerBound max_power(const Exponent exponent, const glm::dvec3& v, const OffsetBox& b, double tolerance,
                             int iterations) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
+    constexpr double doubt = 8.0 * unit_roundoff;  // relative, of the terms of h
     const double k = exponent.k;
 
     const Support support = support_of(v, b);
@@ -147,33 +155,39 @@ inline PowerBound max_power(const Exponent exponent, const glm::dvec3& v, const 
     double below = d2 / (k * m);  // h >= 0, here and at every later value
     double above = infinity;      // h < 0
     double s = larger(below, start_of(v, b, nearest, d2, m) / k);
-    const double tight = larger(tolerance, 8.0 * unit_roundoff);
-    const double inverse = exponent.inverse(d2);
-    const double rounding = 1.0 + exponent.roundings * unit_roundoff;
+    const double tight = larger(tolerance, 8.0 * k * doubt);
+    const double most_deficit = exponent.scaled(tight, d2);
     for (int i = 0;; ++i) {
         const glm::dvec3 wanted = v * s;
         const glm::dvec3 q = clamp(wanted, b);
-        const double q2 = dot(q, q);
-        const double h = q2 - k * dot(wanted, q);
-        const double deficit = larger(0.0, -h);
-        if (exponent.is_small(h, tight, q2, d2)) {
-            const double value = exponent.ratio(q2, k * s) + deficit * inverse / (k * s);
-            return {value * rounding + slack, q};
+        // Which coordinates are clamped, nobody can predict: 0 or 1 without a branch.
+        const glm::dvec3 clamped(differ(q.x, wanted.x), differ(q.y, wanted.y), differ(q.z, wanted.z));
+        const glm::dvec3 clamped_q = clamped * q;
+        const double x = clamped_q.x * v.x, y = clamped_q.y * v.y, z = clamped_q.z * v.z;
+        const double C = dot(clamped_q, clamped_q);
+        const double A = dot(v - clamped * v, v);
+        const double q2 = C + A * s * s;
+        const double M = x + y + z + doubt * (std::fabs(x) + std::fabs(y) + std::fabs(z));
+        // h = constant - linear s - square s^2
+        const double constant = (1.0 - doubt) * C;
+        const double linear = k * M;
+        const double square = (k - 1.0) * (1.0 + doubt) * A;
+        const double h = constant - s * (linear + square * s);
+        // One comparison, because nobody can predict the sign of h.
+        const bool is_close = larger(h - tight * q2, -h * exponent.per(q2) - most_deficit) <= 0.0;
+        if (is_close || i >= iterations || above - below <= 4.0 * unit_roundoff * below) {
+            const double deficit = larger(0.0, -h);
+            double value = exponent.ratio(q2, k * s) + deficit * exponent.inverse(d2) / (k * s);
+            if (!is_close) {
+                const glm::dvec3 p = clamp(v * below, b);
+                value = smaller(value, exponent.ratio(dot(p, p), k * below));
+            }
+            return {value * (1.0 + exponent.roundings * unit_roundoff) + slack, q};
         }
         below = h < 0.0 ? below : s;
         above = h < 0.0 ? s : above;
-        if (i >= iterations || above - below <= 4.0 * unit_roundoff * below) {
-            const glm::dvec3 p = clamp(v * below, b);
-            const double value = exponent.ratio(q2, k * s) + deficit * inverse / (k * s);
-            return {smaller(value, exponent.ratio(dot(p, p), k * below)) * rounding + slack, q};
-        }
-        // With the same coordinates clamped, h(s) is a quadratic: take its root.
-        // Which are, nobody can predict: 0 or 1 without a branch.
-        const auto is_fixed = [](double x, double y) { return smaller(std::fabs(x - y) * 0x1p1000, 1.0); };
-        const glm::dvec3 fixed(is_fixed(q.x, wanted.x), is_fixed(q.y, wanted.y), is_fixed(q.z, wanted.z));
-        const glm::dvec3 free_v = v - fixed * v;
-        const glm::dvec3 fixed_q = fixed * q;
-        s = exponent.root(dot(fixed_q, q), k * dot(fixed_q, v), (k - 1.0) * dot(free_v, v));
+        // Take the root, or a little less: there h is certain.
+        s = exponent.root(constant, linear, square) * (1.0 - 2.0 * doubt);
         if (!(s > below && s < above)) s = above < infinity ? std::sqrt(below * above) : 16.0 * below;
     }
 }

@@ -118,6 +118,12 @@ constexpr float rough_sum(const S& s) {
     return sum;
 }
 
+/// True if a channel may be the largest float, in place of a larger number.
+template <Spectrum S>
+constexpr bool is_saturated(const S& s) {
+    return !(rough_sum(s) < std::numeric_limits<float>::max());
+}
+
 }  // namespace detail
 
 /// `s` with no channel above the largest float, so that a product with zero stays zero.

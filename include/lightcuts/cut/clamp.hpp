@@ -2,9 +2,14 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <type_traits>
 
+#include "../core/box.hpp"
+#include "../core/rounding.hpp"
 #include "../core/spectrum.hpp"
+#include "../light/clamped.hpp"
 
 namespace lightcuts {
 
@@ -15,7 +20,8 @@ struct ClampOptions {
     float radiance = std::numeric_limits<float>::infinity();
     /// Share of the receiver's total, itself clamped [Lightcuts 2005, section 5]; 1 and above is off. Where fewer than
     /// 2 / ratio clamped lights arrive, n of them, it is 2 / n, so that lights which are alike are never clamped. In
-    /// every channel by itself. pre: >= 0.
+    /// every channel by itself. A light counts as a part of one if it adds less than 1e-9 of all lights' intensity over
+    /// the squared diagonal of their box: so the total is continuous in what each adds. pre: >= 0.
     float ratio = std::numeric_limits<float>::infinity();
     /// Material x geometric term, per unit intensity [Multidimensional Lightcuts 2006, Eq. 14]. pre: >= 0.
     float terms = std::numeric_limits<float>::infinity();
@@ -50,12 +56,20 @@ struct ClampedTotal {
 };
 
 /// The share of the total that one of `lights` may add, which are the clamped ones that arrive; infinite if that is
-/// all of it. At least twice the share of each if they are alike: n lights of more than 1 / n each have no total but 0.
+/// all of it, which a share of 1 is too. At least twice the share of each if they are alike: n lights of more than 1 /
+/// n each have no total but 0. Continuous.
 inline double effective_ratio(const ClampOptions& clamp, double lights) {
-    // In float, as the other is: 2 / 200 is not above 0.01.
-    const float least = static_cast<float>(2.0 / lights);
-    const float ratio = least > clamp.ratio ? least : clamp.ratio;
-    return ratio < 1.0f ? static_cast<double>(ratio) : std::numeric_limits<double>::infinity();
+    const auto stated = static_cast<double>(clamp.ratio);
+    // A little more than 2 / n, so that it is all the same whether to a whole number of lights next to nothing is
+    // added.
+    constexpr double two = 2.0 * (1.0 + 0x1p-30);
+    if (!(lights > two)) return std::numeric_limits<double>::infinity();
+    // Nearly 2 / ratio lights: a little less than 2 / n, since the ratio was rounded to float, and 2 / 200 is not above
+    // 0.01.
+    const double least = two / lights, nearby = 0x1p-22 * stated - 0x1p-12 * (least - stated);
+    const double lowered = nearby > 0.0 ? least - nearby : least;
+    const double ratio = lowered > stated ? lowered : stated;
+    return ratio < 1.0 ? ratio : std::numeric_limits<double>::infinity();
 }
 
 /// The threshold under a total that may be infinite; `ratio` as it is effective.
@@ -65,31 +79,72 @@ inline double clamp_threshold(const ClampOptions& clamp, double ratio, double to
     return share < limit ? share : limit;
 }
 
+/// How much of one light a light is that adds a unit of radiance, in every channel: it is a whole one from where it
+/// adds next to nothing of what one adds somewhere between the lights. Follows from what is known before any of them is
+/// looked at, so that no light makes others count for less. Zero if they are all at one place: none is a spike for
+/// being near.
+template <class Forest>
+ChannelSums<typename Forest::spectrum> counts_per_radiance(const Forest& forest) {
+    constexpr double next_to_nothing = 1e-9;
+    constexpr double in_range = 0x1p-100;  // what is a little less would be rounded as denormals are
+    ChannelSums<typename Forest::spectrum> distant{}, near{};
+    Box box;
+    forest.for_each([&](std::uint32_t, const auto& tree) {
+        using L = typename std::remove_cvref_t<decltype(tree)>::light_type;
+        if constexpr (ClampedLight<L>) {
+            if (tree.empty()) return;
+            const auto& all = tree.clusters()[tree.topology().root()];
+            if constexpr (!DirectionalLight<L>) box = merge(box, all.box);
+            auto& sum = DirectionalLight<L> ? distant : near;
+            for (std::size_t c = 0; c < sum.size(); ++c) {
+                sum[c] += next_to_nothing * static_cast<double>(channel(all.intensity, static_cast<int>(c)));
+            }
+        }
+    });
+    const double size2 = diagonal2(box);
+    ChannelSums<typename Forest::spectrum> counts{};
+    for (std::size_t c = 0; c < near.size(); ++c) {
+        const double whole = distant[c] + (near[c] > 0.0 ? near[c] / size2 : 0.0);
+        counts[c] = 1.0 / (whole < in_range ? in_range : whole);
+    }
+    return counts;
+}
+
+/// How many of `lights` count that add `contribution` together: each by what it adds, but as no more than one.
+constexpr double counted_lights(double contribution, double lights, double per_radiance) {
+    const double counts = contribution * per_radiance;
+    return contribution > 0.0 ? counts < lights ? counts : lights : 0.0;
+}
+
 /// Counts lights in every channel until there are so many that the ratio is the stated one.
 template <Spectrum S>
 struct LightCount {
     ChannelSums<S> lights{};
-    double many;  ///< 2 / ratio, and some for rounding
+    ChannelSums<S> per_radiance;  ///< see `counts_per_radiance`
+    double many;                  ///< 2 / ratio, and some for rounding
 
-    explicit LightCount(const ClampOptions& clamp) : many(2.000001 / static_cast<double>(clamp.ratio)) {}
+    LightCount(const ClampOptions& clamp, const ChannelSums<S>& counts)
+        : per_radiance(counts), many(2.000001 / static_cast<double>(clamp.ratio)) {}
 
     bool is_known() const {
         bool known = true;
         for (const double n : lights) known = known && n >= many;
         return known;
     }
-    /// `count` lights in the channels in which `contribution` is above zero.
-    void add(const S& contribution, double count) {
+    /// `count` lights that add `contribution` together, or `part` of it.
+    void add(const S& contribution, double count, double part = 1.0) {
         for (std::size_t c = 0; c < lights.size(); ++c) {
-            lights[c] += channel(contribution, static_cast<int>(c)) > 0.0f ? count : 0.0;
+            lights[c] += counted_lights(part * static_cast<double>(channel(contribution, static_cast<int>(c))), count,
+                                        per_radiance[c]);
         }
     }
 };
 
-/// The effective ratio in every channel; infinite if clamping is not automatic. `visit(f)` as for `clamped_total`.
+/// The effective ratio in every channel; infinite if clamping is not automatic. `counts`: see `counts_per_radiance`.
+/// `visit(f)` as for `clamped_total`.
 template <Spectrum S, class Visit>
-ChannelSums<S> effective_ratios(const ClampOptions& clamp, const Visit& visit) {
-    LightCount<S> arriving(clamp);
+ChannelSums<S> effective_ratios(const ClampOptions& clamp, const ChannelSums<S>& counts, const Visit& visit) {
+    LightCount<S> arriving(clamp, counts);
     bool known = !clamp.is_automatic();
     visit([&](const S& raw, double lights) {
         if (known || !(lights < std::numeric_limits<double>::infinity())) return;
@@ -153,13 +208,6 @@ ClampedTotal<S> clamped_total(const ClampOptions& clamp, const ChannelSums<S>& r
     return result;
 }
 
-/// The same with the ratio that follows from the contributions.
-template <Spectrum S, class Visit>
-ClampedTotal<S> clamped_total(const ClampOptions& clamp, const ChannelSums<S>& fixed, const ChannelSums<S>& guess,
-                              double tolerance, const Visit& visit) {
-    return clamped_total<S>(clamp, effective_ratios<S>(clamp, visit), fixed, guess, tolerance, visit);
-}
-
 /// Between how many clamped lights arrive, in every channel.
 template <Spectrum S>
 struct ArrivingLights {
@@ -170,9 +218,10 @@ struct ArrivingLights {
 /// `visit(f)` calls f(raw estimate, raw bound, lights) for every node of the cut; zero bounds are exact nodes.
 ///
 /// For a given ratio the total is the largest root of a concave function of the total. The larger the function, the
-/// larger the root; and the function increases with the ratio and with every contribution. So both totals lie between
-/// the root with exact nodes alone and the ratio of most lights, and that with bounds in place of estimates and the
-/// ratio of fewest lights. Tangents of the latter function are above it, chords of the former below.
+/// larger the root; and for a given ratio the function increases with every contribution, and with the ratio. So both
+/// totals lie between the root with exact nodes alone and the ratio of most lights, and that with bounds in place of
+/// estimates and the ratio of fewest lights, though a larger contribution may count for more lights. Tangents of the
+/// latter function are above it, chords of the former below.
 template <Spectrum S, class Visit>
 ChannelSums<S> clamped_error(const ClampOptions& clamp, const ClampedTotal<S>& cut, const ArrivingLights<S>& arriving,
                              const Visit& visit) {
@@ -187,6 +236,7 @@ ChannelSums<S> clamped_error(const ClampOptions& clamp, const ClampedTotal<S>& c
         double exact_at_half = 0;                         ///< they under half the total
         double clamped = 0, clamped_exact = 0;            ///< lights in nodes that are clamped if bounds are true
         double upper_ratio = 0;                           ///< slope of the upper threshold
+        double unclamped = 0;                             ///< estimates below the threshold
     };
     std::array<Sums, ChannelSums<S>{}.size()> sums;
     for (std::size_t c = 0; c < sums.size(); ++c) {
@@ -202,7 +252,9 @@ ChannelSums<S> clamped_error(const ClampOptions& clamp, const ClampedTotal<S>& c
         s.half_threshold = clamp_threshold(clamp, lower, 0.5 * cut.total[c]);
         s.upper_ratio = s.upper_threshold < static_cast<double>(clamp.radiance) ? upper : 0.0;
     }
+    double nodes = 0.0;
     visit([&](const S& estimate, const S& bound, double lights) {
+        nodes += 1.0;
         const auto at_most = [lights](double value, double threshold) {
             const double limit = lights * threshold;
             return value > limit ? limit : value;
@@ -212,6 +264,7 @@ ChannelSums<S> clamped_error(const ClampOptions& clamp, const ClampedTotal<S>& c
             const double e = static_cast<double>(channel(estimate, static_cast<int>(c)));
             const double b = static_cast<double>(channel(bound, static_cast<int>(c)));
             const double here = at_most(e, cut.threshold[c]);
+            s.unclamped += here < e ? 0.0 : e;
             if (b == 0.0) {
                 s.exact_at_half += at_most(e, s.half_threshold);
                 if (!(e > lights * s.half_threshold)) continue;  // the least of thresholds
@@ -227,9 +280,18 @@ ChannelSums<S> clamped_error(const ClampOptions& clamp, const ClampedTotal<S>& c
             }
         }
     });
+    constexpr double float_rounding = 0x1p-24;
+    const double rounding = unit_roundoff * (16.0 + nodes);
     ChannelSums<S> error{};
     for (std::size_t c = 0; c < sums.size(); ++c) {
         const Sums& s = sums[c];
+        // The total is what is not clamped over 1 - slope: where that difference is lost in rounding, so is the total.
+        const bool moves = cut.threshold[c] < static_cast<double>(clamp.radiance);
+        const double rounded = moves ? rounding * (cut.total[c] / s.unclamped) : 0.0;
+        if (rounded > float_rounding) {
+            const double raw = s.exact_raw_gain + s.raw_bound, most = raw > cut.total[c] ? raw : cut.total[c];
+            error[c] = rounded < 1.0 ? rounded * most : most;
+        }
         if (s.raw_bound == 0.0) continue;
         // Above: the least root of three tangents of the upper function.
         const double exact_slope = s.upper_ratio * s.clamped_exact;
@@ -243,7 +305,7 @@ ChannelSums<S> clamped_error(const ClampOptions& clamp, const ClampedTotal<S>& c
         // Below: the root of the chord of the lower function between half the total and all of it.
         const double half = 0.5 * cut.total[c], excess = s.exact_at_half - half, lost = s.loose + s.exact_loss;
         const double below = excess > 0.0 ? half * lost / (excess + lost) : cut.total[c];
-        error[c] = below > above ? below : above;
+        error[c] += below > above ? below : above;
     }
     return error;
 }

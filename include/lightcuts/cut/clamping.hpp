@@ -16,9 +16,11 @@ public:
     using Sums = ChannelSums<S>;
     using Node = CutNode<S, true>;
 
-    void start(const ClampOptions& options) {
+    template <class Forest>
+    void start(const ClampOptions& options, const Forest& forest) {
         *this = {};
         options_ = options;
+        if (options.is_automatic()) counts_ = counts_per_radiance(forest);
         threshold_.fill(static_cast<double>(options.radiance));
         ratio_.fill(std::numeric_limits<double>::infinity());
     }
@@ -88,9 +90,10 @@ public:
         // Converged refinements have found it, unless they had lights in mind which did not arrive.
         const bool is_found = refinement.stop_reason() == StopReason::converged && is_final_;
         if (!options_.is_automatic() || is_found) return {total, threshold_, ratio_};
-        return clamped_total<S>(options_, {}, total, 1e-6, [&](auto&& f) {
+        const auto visit = [&](auto&& f) {
             refinement.for_each([&](const Node& n) { f(n.estimate, static_cast<double>(n.lights)); });
-        });
+        };
+        return clamped_total<S>(options_, effective_ratios<S>(options_, counts_, visit), {}, total, 1e-6, visit);
     }
 
     /// Bounds the error of `cut`.
@@ -115,11 +118,14 @@ private:
             for (std::size_t c = 0; c < dark.size(); ++c) {
                 const int i = static_cast<int>(c);
                 const auto count = static_cast<double>(n.lights);
-                if (channel(n.estimate, i) > 0.0f) {
-                    lights[c] += count;
-                } else if (channel(n.bound, i) > 0.0f) {
-                    dark[c] += count;
-                    dark_clusters[c] += 1.0;
+                const auto of = [&](float radiance) {
+                    return counted_lights(static_cast<double>(radiance), count, counts_[c]);
+                };
+                const double arrived = of(channel(n.estimate, i)), most = of(channel(n.bound, i));
+                lights[c] += arrived;
+                if (most > arrived) {
+                    dark[c] += most - arrived;
+                    dark_clusters[c] += (most - arrived) / count;
                 }
             }
         });
@@ -132,7 +138,8 @@ private:
 
     /// How many clamped lights arrive: those that were looked at for certain, and others where there are bounds.
     ArrivingLights<S> arriving_lights(const Refinement<Node>& refinement) const {
-        ArrivingLights<S> arriving{LightCount<S>(options_), LightCount<S>(options_)};
+        const LightCount<S> none(options_, counts_);
+        ArrivingLights<S> arriving{none, none};
         bool known = false, most_known = false;
         refinement.for_each([&](const Node& n) {
             if (known || !(n.lights < std::numeric_limits<float>::infinity())) return;
@@ -141,10 +148,8 @@ private:
                 arriving.most.add(single ? n.estimate : n.bound, static_cast<double>(n.lights));
                 most_known = arriving.most.is_known();
             }
-            if (single || n.all_channels) {
-                arriving.least.add(n.estimate, 1.0);
-                known = arriving.least.is_known();
-            }
+            arriving.least.add(n.estimate, 1.0, single ? 1.0 : representative_part(n));
+            known = arriving.least.is_known();
         });
         return arriving;
     }

@@ -19,7 +19,10 @@ template <Spectrum S>
 struct CutResult {
     S radiance{};
     /// Sum of the error bounds of the cut's clusters, absolute radiance; infinite if a cluster that may touch the
-    /// receiver is left on the cut. With automatic clamping it includes what errors do to the threshold.
+    /// receiver is left on the cut. With automatic clamping it includes what errors do to the threshold. Beside it
+    /// stands the rounding of float: 1e-5 of the radiance; and what float cannot hold: 2^-126 of all lights' intensity
+    /// where terms or visibility are smaller than that, as beyond distances of 1e18, and radiance above the largest
+    /// float, of one light or of all, is the largest float.
     S error_bound{};
     /// Radiance that no clamped light exceeded; infinite if there was no limit, as in automatic clamping of two or
     /// fewer.

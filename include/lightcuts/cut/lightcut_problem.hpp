@@ -39,11 +39,11 @@ public:
                     ReusableList<VisibilityQuery>& query_list)
         : forest_(forest), options_(options), total_(total), queries_(queries), receiver_id_(receiver.id),
           threshold_(static_cast<double>(options.error_ratio)),
-          representatives_(forest, receiver, oracle, options.clamp.terms, query_list),
+          representatives_(forest, receiver, oracle, options.clamp, query_list),
           bounder_(forest, receiver, oracle, policy) {}
 
     void roots(ReusableList<node>& out) {
-        total_.start(options_.clamp);
+        total_.start(options_.clamp, forest_);
         queries_ = 0;
         const Start start = start_of();
         forest_.for_each([&](std::uint32_t kind, const auto& tree) {
@@ -183,7 +183,9 @@ private:
                 ReusableList<node>& out) const {
         node& n = append_bounded(tree, kind, index, unit_bound, out);
         n.queried = true;
+        n.terms = S{};
         n.estimate = S{};
+        if constexpr (clamps) n.part = 0;
         if (tree.topology().is_leaf(index)) {
             n.representative = index;
         } else {
@@ -201,7 +203,7 @@ private:
         n.queried = false;
         n.representative = parent.representative;
         n.terms = parent.terms;
-        if constexpr (clamps) n.all_channels = parent.all_channels;
+        if constexpr (clamps) n.part = parent.part;
         n.estimate = finite_product(n.terms, tree.clusters()[index].intensity);
     }
 

@@ -23,9 +23,9 @@ public:
     using S = typename Forest::spectrum;
     using Node = CutNode<S, Forest::clamps>;
 
-    RepresentativeBatch(const Forest& forest, const R& receiver, const Oracle& oracle, float most_terms,
+    RepresentativeBatch(const Forest& forest, const R& receiver, const Oracle& oracle, const ClampOptions& clamp,
                         ReusableList<VisibilityQuery>& queries)
-        : forest_(forest), receiver_(receiver), oracle_(oracle), most_terms_(most_terms), queries_(queries) {}
+        : forest_(forest), receiver_(receiver), oracle_(oracle), clamp_(clamp), queries_(queries) {}
 
     /// Finds the terms of the representatives that are not shared with a parent, shadows apart; a batched oracle's
     /// queries go to the caller's list. Returns the number of shadow rays.
@@ -57,12 +57,18 @@ public:
 
     /// Takes the answer to a node's shadow ray: a float or a spectrum.
     template <class A>
-    static void receive(Node& n, const A& visibility) {
+    void receive(Node& n, const A& visibility) const {
         if constexpr (std::same_as<A, float>) {
             if (visibility == 1.0f) return;
         }
         n.terms = n.terms * visibility;
-        n.estimate = n.estimate * visibility;
+        if (!is_saturated(n.estimate)) [[likely]] {
+            n.estimate = n.estimate * visibility;
+        } else {
+            forest_.visit(n.kind, [&](const auto& tree) {
+                n.estimate = finite_product(n.terms, tree.clusters()[n.node].intensity);
+            });
+        }
     }
 
 private:
@@ -87,8 +93,11 @@ private:
             Node& n = *nodes[static_cast<std::size_t>(i)];
             n.terms = terms[static_cast<std::size_t>(i)];
             if constexpr (ClampedLight<L>) {
-                n.terms = at_most(n.terms, most_terms_);
-                n.all_channels = channel_min(tree.clusters()[n.representative].intensity) > 0.0f;
+                n.terms = at_most(n.terms, clamp_.terms);
+                if (clamp_.is_automatic()) {
+                    n.part = representative_part(tree.clusters()[n.representative].intensity,
+                                                 tree.clusters()[n.node].intensity);
+                }
             }
             n.queried = !is_black(n.terms);
             if (!n.queried) continue;
@@ -115,7 +124,7 @@ private:
     const Forest& forest_;
     const R& receiver_;
     const Oracle& oracle_;
-    float most_terms_;  ///< per unit intensity, of clamped lights
+    const ClampOptions& clamp_;  ///< of clamped lights
     ReusableList<VisibilityQuery>& queries_;
 };
 

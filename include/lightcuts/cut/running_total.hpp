@@ -17,12 +17,13 @@ public:
     using Sums = ChannelSums<S>;
     using Node = CutNode<S, Clamps>;
 
-    /// `clamp` is looked at only if `Clamps`.
-    void start([[maybe_unused]] const ClampOptions& clamp) {
+    /// The arguments are looked at only if `Clamps`.
+    template <class Forest>
+    void start([[maybe_unused]] const ClampOptions& clamp, [[maybe_unused]] const Forest& forest) {
         *this = {};
         weight_.fill(darkest);
         if constexpr (Clamps) {
-            clamping_.start(clamp);
+            clamping_.start(clamp, forest);
             clamping_.update_shares(weight_);
         }
     }

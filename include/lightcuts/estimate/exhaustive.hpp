@@ -8,11 +8,13 @@ namespace detail {
 
 /// The contributions of unclamped lights and the list of the others, added up under the threshold of `clamp`.
 template <Spectrum S>
-void add_clamped(const ClampOptions& clamp, const RadianceSum<S>& unclamped, std::span<const S> clamped,
-                 Estimate<S>& result) {
-    const auto solved = clamped_total<S>(clamp, unclamped.sum, unclamped.sum, 1e-7, [&](auto&& f) {
+void add_clamped(const ClampOptions& clamp, const ChannelSums<S>& counts, const RadianceSum<S>& unclamped,
+                 std::span<const S> clamped, Estimate<S>& result) {
+    const auto visit = [&](auto&& f) {
         for (const S& contribution : clamped) f(contribution, 1.0);
-    });
+    };
+    const auto solved = clamped_total<S>(clamp, effective_ratios<S>(clamp, counts, visit), unclamped.sum, unclamped.sum,
+                                         1e-7, visit);
     result.radiance = RadianceSum<S>{solved.total}.value();
     result.clamp_threshold = make_spectrum<S>([&](int c) { return solved.threshold[static_cast<std::size_t>(c)]; });
 }
@@ -20,7 +22,8 @@ void add_clamped(const ClampOptions& clamp, const RadianceSum<S>& unclamped, std
 }  // namespace detail
 
 /// The exact sum over all lights [Lightcuts 2005, Eq. 1], in double; what a lightcut with the same clamping
-/// approximates. A light whose terms are zero costs no shadow ray. cost: linear in the lights; a batched oracle gets up
+/// approximates. A light adds no more than the largest float, after its shadow. A light whose terms are zero costs no
+/// shadow ray. cost: linear in the lights; a batched oracle gets up
 /// to 1024 rays at once. memory: with clamping, the scratch holds a spectrum for each clamped light.
 template <TreeOrForest Lights, class M, class Oracle>
 Estimate<forest_spectrum<Lights>> exhaustive(const Lights& lights, const Receiver<M>& receiver, const Oracle& oracle,
@@ -33,12 +36,27 @@ Estimate<forest_spectrum<Lights>> exhaustive(const Lights& lights, const Receive
     Estimate<S> result;
     detail::RadianceSum<S> sum;
     bool clamps = false;  // lights of the kind at hand
+    const auto seen = [&](const Contribution& c, const auto& visibility) {
+        if (!detail::is_saturated(c.radiance)) return S(c.radiance * visibility);
+        return forest.visit(c.kind, [&](const auto& tree) {
+            // As a cut does: one rounding more decides at a horizon.
+            const auto& light = tree.lights()[c.light];
+            using L = std::remove_cvref_t<decltype(light)>;
+            LaneSpectra<S> terms;
+            unshadowed_terms<L>(
+                receiver, 1, [&](int) -> const L& { return light; }, terms);
+            if constexpr (ClampedLight<L>) terms[0] = detail::at_most(terms[0], clamp.terms);
+            return finite_product(S(terms[0] * visibility), S(detail::intensity_of(light)));
+        });
+    };
     const auto flush = [&] {
         result.queries += detail::ask(forest, receiver, oracle, scratch,
                                       std::span<const Contribution>(scratch.contributions),
                                       [&](const Contribution& c, const auto& visibility) {
                                           if (clamps) {
-                                              scratch.clamped.push_back(c.radiance * visibility);
+                                              scratch.clamped.push_back(seen(c, visibility));
+                                          } else if (detail::is_saturated(c.radiance)) {
+                                              sum.add(seen(c, visibility), 1.0);
                                           } else {
                                               sum.add_seen(c.radiance, visibility);
                                           }
@@ -65,7 +83,10 @@ Estimate<forest_spectrum<Lights>> exhaustive(const Lights& lights, const Receive
     flush();
     result.radiance = sum.value();
     if constexpr (forest_of<Lights>::clamps) {
-        if (clamp.has_threshold()) detail::add_clamped(clamp, sum, std::span<const S>(scratch.clamped), result);
+        if (clamp.has_threshold()) {
+            detail::add_clamped(clamp, detail::counts_per_radiance(forest), sum, std::span<const S>(scratch.clamped),
+                                result);
+        }
     }
     return result;
 }

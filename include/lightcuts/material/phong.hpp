@@ -20,11 +20,11 @@ public:
     /// `normal`, `view` (towards the viewer): unit; `specular`: in [0, 1]; `exponent`: >= 0, a million is fine.
     /// A view from below the surface makes a black material.
     ModifiedPhong(const glm::vec3& normal, const glm::vec3& view, const S& specular, float exponent)
-        : normal_(glm::normalize(glm::dvec3(normal))), exponent_(static_cast<double>(exponent)) {
+        : normal_(in_float_range(glm::normalize(glm::dvec3(normal)))), exponent_(static_cast<double>(exponent)) {
         LIGHTCUTS_ASSERT(exponent >= 0.0f);
         const glm::dvec3 v = glm::normalize(glm::dvec3(view));
         const double facing = glm::dot(normal_, v);
-        mirror_ = glm::normalize(2.0 * facing * normal_ - v);
+        mirror_ = in_float_range(glm::normalize(2.0 * facing * normal_ - v));
         if (facing > 0.0) scale_ = specular * static_cast<float>((exponent_ + 2.0) * 0.15915494309189535);
     }
 
@@ -59,6 +59,12 @@ public:
     }
 
 private:
+    /// Without coordinates that float bounds would take for zero.
+    static glm::dvec3 in_float_range(const glm::dvec3& v) {
+        const auto kept = [](double x) { return std::fabs(x) < 0x1p-126 ? 0.0 : x; };
+        return {kept(v.x), kept(v.y), kept(v.z)};
+    }
+
     /// c^e; zero where that underflows, which would be slow.
     double power(double c) const {
         const double logarithm = exponent_ * std::log(c);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 
 #include <glm/vec3.hpp>
 
@@ -55,7 +56,10 @@ public:
         if (!(frame_.cos_view() > 0.0)) return S{};
         const detail::HalfVector h = frame_.of(to_light);
         if (!(h.cosine > 0.0)) return S{};
-        return specular_ * static_cast<float>(lobe(h.cosine, squared_tangent(h.sin2)));
+        // Finite, so that no color times it is not a number.
+        constexpr double largest = std::numeric_limits<float>::max();
+        const double value = lobe(h.cosine, squared_tangent(h.sin2));
+        return specular_ * static_cast<float>(value < largest ? value : largest);
     }
 
     /// cost: about 120 ns
