@@ -107,8 +107,10 @@ private:
     /// Finds the ratio by the lights that have arrived; returns that with those which may yet.
     template <class Visit>
     Sums count_lights(const Visit& visit) {
-        ratio_ = effective_ratios<S>(
-            options_, [&](auto&& f) { visit([&](const Node& n) { f(n.estimate, static_cast<double>(n.lights)); }); });
+        const auto contributions = [&](auto&& f) {
+            visit([&](const Node& n) { f(n.estimate, static_cast<double>(n.lights)); });
+        };
+        ratio_ = effective_ratios<S>(options_, counts_, contributions);
         bool many = true;
         for (const double r : ratio_) many = many && r == static_cast<double>(options_.ratio);
         if (many) return ratio_;
@@ -159,6 +161,7 @@ private:
     Sums share_{};           ///< the most that a light's error adds to a priority
     Sums base_share_{};      ///< shares at the last checkpoint
     Sums total_{};           ///< of which the threshold was made
+    Sums counts_{};          ///< of a light, per radiance: see `counts_per_radiance`
     Sums ratio_{};           ///< by the lights that have arrived; infinite while there are none
     bool is_final_ = false;  ///< the threshold was made by that ratio, not with others in mind
 };
