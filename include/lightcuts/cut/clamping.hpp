@@ -34,7 +34,7 @@ public:
 
     /// True if the node's lights together may be off by more than `threshold` in channel `c`, as a share of the total.
     bool may_exceed(const Node& n, std::size_t c, double threshold) const {
-        return static_cast<double>(n.lights) * share_[c] > threshold;
+        return !(static_cast<double>(n.lights) * share_[c] <= threshold);  // NaN: not clamped, at a share of zero
     }
 
     /// Finds the largest share of one light from the weights of bounds. It is known also where the total is not, since
