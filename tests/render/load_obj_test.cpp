@@ -478,4 +478,34 @@ TEST_F(ObjFile, StandsWhereItIsFarAway) {
     EXPECT_THAT(coarse.left_out[0].why, HasSubstr("step"));
 }
 
+TEST_F(ObjFile, StandsWhereMostOfItIs) {
+    const auto level = [](double y, double half) {
+        std::string text;
+        for (const auto& [x, z] : {std::pair{-half, -half}, {-half, half}, {half, half}, {half, -half}}) {
+            text += "v " + std::to_string(500000.0 + x) + " " + std::to_string(y) + " " +
+                    std::to_string(-4000000.0 + z) + "\n";
+        }
+        return text + "f -4 -3 -2 -1\n";
+    };
+    const std::string yard = level(0, 100) + level(10, 50);
+    EXPECT_TRUE(load(yard).left_out.empty());
+    // A triangle at the origin of coordinates, before or after the rest, loses its shape, not the yard its shadows.
+    const std::string stray = "v 0 0 0\nv 0 0 1\nv 1 0 0\nf -3 -2 -1\n";
+    for (const std::string& text : {yard + stray, stray + yard, yard + stray + stray}) {
+        const Scene s = load(text);
+        EXPECT_LT(glm::length(s.origin - glm::dvec3(5e5, 0, -4e6)), 200.0);
+        ASSERT_EQ(s.left_out.size(), 1u);
+        EXPECT_THAT(s.left_out[0].what, HasSubstr("shadows of"));
+        EXPECT_THAT(s.left_out[0].why, HasSubstr("rays leave a surface by"));
+    }
+    // Also one of very many is said.
+    std::string many;
+    for (int i = 0; i < 300; ++i) many += level(0.5 * i, 100);
+    EXPECT_EQ(load(many + stray).left_out.size(), 1u);
+    // What is small and near the origin is not given up for a backdrop.
+    std::string house;
+    for (int i = 0; i < 20; ++i) house += "v 0 0 " + std::to_string(i) + "\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\n";
+    EXPECT_EQ(load(house + "v 9000 0 0\nv 9000 500 0\nv 9000 0 500\nf -3 -2 -1\n").origin, glm::dvec3(0.0));
+}
+
 }  // namespace
