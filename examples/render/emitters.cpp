@@ -20,6 +20,10 @@ namespace {
 
 constexpr std::size_t most_lights = 100'000'000;
 
+/// Distance of a light from its surface, as a share of `Triangle::scale_at`: sixteen steps of a float, above the
+/// rounding of the place and of an intersection there, far below what a cover's distance may be.
+constexpr float light_offset_share = 0x1p-20f;
+
 bool is_emissive(const Scene& scene, std::size_t triangle) {
     const Material& material = scene.materials[scene.triangle_material[triangle]];
     return material.emission != glm::vec3(0.0f) && !material.only_seen;
@@ -190,7 +194,8 @@ void add_emitter_lights(Scene& scene, const EmitterLightOptions& options) {
         for (const EmissionSample& sample : sampler.spread(surface.triangles, points[i])) {
             const glm::vec3 p = sample.place.position;
             const glm::vec3 n = sample.place.normal;
-            const float offset = ray_offset(Triangle(scene, sample.place.triangle), glm::dvec3(p));
+            const Triangle triangle(scene, sample.place.triangle);
+            const float offset = light_offset_share * static_cast<float>(triangle.scale_at(glm::dvec3(p)));
             scene.oriented.push_back({p + offset * n, n, sample.intensity});
             if (both_sides) scene.oriented.push_back({p - offset * n, -n, sample.intensity});
             has_lights[surface.material] = true;

@@ -24,7 +24,7 @@ namespace render {
 /// virtual lights do: as much farther off as the rounding of the ray and of its intersection with that surface, which
 /// grow with the distance, so that the surface does not hide it and all before it does.
 inline glm::vec3 end_before_surface(const glm::vec3& from, const glm::vec3& light, const glm::vec3& axis) {
-    constexpr float by_distance = 0x1p-21f;
+    constexpr float by_distance = 0x1.8p-22f;
     constexpr float by_coordinate = 0x1p-20f;
     const float coordinate = std::max({std::abs(light.x), std::abs(light.y), std::abs(light.z)});
     return light + (by_distance * glm::length(light - from) + by_coordinate * coordinate) * axis;

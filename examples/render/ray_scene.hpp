@@ -59,7 +59,7 @@ public:
     const RayTracer& tracer() const { return tracer_; }
 
     /// Shadow rays end at this share of the way: a ray's own rounding may not carry it beyond its end.
-    static constexpr float shadow_ray_end = 1.0f - 0x1p-22f;
+    static constexpr float shadow_ray_end = 1.0f - 0x1p-23f;
 
 private:
     struct Ray;

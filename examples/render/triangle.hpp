@@ -41,8 +41,7 @@ struct Triangle {
     }
 };
 
-/// Distance from their surface at which rays begin, and lights of emitters stand, as a share of `Triangle::scale_at`:
-/// some thirty steps of a float.
+/// Distance from their surface at which rays begin, as a share of `Triangle::scale_at`: some thirty steps of a float.
 inline constexpr double ray_offset_share = 4e-6;
 
 inline float ray_offset(const Triangle& triangle, const glm::dvec3& p) {

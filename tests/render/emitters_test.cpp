@@ -323,7 +323,7 @@ TEST(EmitterLights, OfTwoSidesAreAsDenseAsOfOne) {
     s.materials.push_back(s.materials[0]);
     s.materials[1].double_sided = true;
     for (std::size_t t = 0; t < s.triangles.size(); ++t) s.triangle_material[t] = t / 2 % 4 < 2 ? 0 : 1;
-    add_emitter_lights(s, {.points = 64, .total = 3000});
+    add_emitter_lights(s, {.points = 64, .total = 1000});
     std::vector<std::size_t> up(200);
     std::vector<std::size_t> down(200);
     for (const auto& light : s.oriented) {
