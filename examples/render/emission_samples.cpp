@@ -25,13 +25,12 @@ constexpr double least_pieces = 64.0;
 
 /// The mean radiance of a piece is that of so many points, one in each of its sixteenths.
 constexpr int points_per_piece = 16;
-/// Largest standard deviation of a surface's power, as a share. That of a point's radiance is at most half of the
-/// piece's range.
+/// Largest standard deviation of a surface's power, as a share.
 constexpr double usual_tolerance = 0.0025;
 constexpr double rough_tolerance = 0.05;
 /// Of more surfaces than these, each may be off by more, so that all together are as good, and load as fast.
 constexpr double many_surfaces = 1000.0;
-constexpr std::size_t most_parts = std::size_t{1} << 20;
+constexpr std::size_t most_parts = std::size_t{1} << 19;
 constexpr std::size_t least_most_parts = 4096;
 
 /// A channel with less than this share of the brightest one's power is measured by that.
@@ -78,6 +77,13 @@ dvec3 mean_radiance(const Scene& scene, const Piece& piece, std::uint64_t index)
     return sum / static_cast<double>(points_per_piece);
 }
 
+/// The largest standard deviation of what lies within a range and has that mean [Bhatia and Davis 2000]. As the mean of
+/// a few points may miss what is bright or dark, it counts as not too near to the ends.
+double deviation(double low, double high, double mean) {
+    const double least = (high - low) / 64.0;
+    return std::sqrt(std::max(mean - low, least) * std::max(high - mean, least));
+}
+
 }  // namespace
 
 EmissionSampler::EmissionSampler(const Scene& scene, std::span<const std::uint32_t> materials, std::size_t surfaces)
@@ -95,24 +101,35 @@ bool EmissionSampler::is_varying(std::span<const std::uint32_t> triangles) const
 bool EmissionSampler::measure(Part& part, std::uint64_t index) const {
     const EmissionRange::Bounds bounds = range_.over(part);
     if (!(largest_of(bounds.high) > 0.0)) return false;
-    part.uncertainty = part.area * (bounds.high - bounds.low);
-    const bool is_constant = bounds.high == bounds.low;
-    part.power = part.area * (is_constant ? bounds.low : mean_radiance(scene_, part, index));
+    part.range = part.area * (bounds.high - bounds.low);
+    part.deviation = dvec3(0.0);
+    if (bounds.high == bounds.low) {
+        part.power = part.area * bounds.low;
+        return true;
+    }
+    const dvec3 mean = mean_radiance(scene_, part, index);
+    part.power = part.area * mean;
+    for (int c = 0; c < 3; ++c) part.deviation[c] = part.area * deviation(bounds.low[c], bounds.high[c], mean[c]);
     return true;
 }
 
 EmissionSampler::Parts EmissionSampler::parts_of(std::span<const std::uint32_t> triangles, double least,
                                                  double tolerance) const {
-    // The deviation of the sum is that of its pieces, which are independent: half a range by the root of the points.
-    const double most_doubt = 2.0 * std::sqrt(static_cast<double>(points_per_piece)) * tolerance;
+    // The deviation of the sum is that of its pieces, which are independent: that of a point by the root of the points.
+    const double most_doubt = std::sqrt(static_cast<double>(points_per_piece)) * tolerance;
     std::vector<Part> parts;
     std::uint64_t index = 0;
     for (const Piece& piece : cut_into_pieces(scene_, triangles, 1.0 / least)) {
-        Part part{piece, dvec3(0.0), dvec3(0.0)};
+        Part part{piece, {}, {}, {}};
         if (measure(part, index++)) parts.push_back(part);
     }
     const std::uint64_t most = index + most_parts_;
-    std::vector<std::pair<double, std::size_t>> doubts;
+    struct Doubt {
+        double range = 0;
+        double variance = 0;
+        std::size_t part = 0;
+    };
+    std::vector<Doubt> doubts;
     for (;;) {
         dvec3 power(0.0);
         for (const Part& part : parts) power += part.power;
@@ -121,30 +138,33 @@ EmissionSampler::Parts EmissionSampler::parts_of(std::span<const std::uint32_t> 
         double sum = 0;
         double fixed = 0;
         for (std::size_t i = 0; i < parts.size(); ++i) {
-            const double doubt = std::min(largest_of(parts[i].uncertainty / whole), 1e100);
-            if (!(doubt > 0.0)) continue;
-            (can_be_halved(parts[i]) ? sum : fixed) += doubt * doubt;
-            if (can_be_halved(parts[i])) doubts.emplace_back(doubt * doubt, i);
+            const double range = largest_of(parts[i].range / whole);
+            if (!(range > 0.0)) continue;
+            const double deviation = std::min(largest_of(parts[i].deviation / whole), 1e100);
+            const double variance = deviation * deviation;
+            (can_be_halved(parts[i]) ? sum : fixed) += variance;
+            if (can_be_halved(parts[i])) doubts.push_back({range, variance, i});
         }
         const double allowed = most_doubt * most_doubt;
         if (sum <= allowed || doubts.empty() || index >= most) {
             return {std::move(parts), power, std::sqrt(sum + fixed) / most_doubt * tolerance};
         }
-        // The pieces of the largest doubts, until what is left would be little.
-        std::sort(doubts.begin(), doubts.end(), [](const auto& a, const auto& b) {
-            return a.first > b.first || (a.first == b.first && a.second < b.second);
+        // The pieces of the largest ranges, until what is left would be little. Not those of the largest deviations,
+        // which are of pieces whose points happened to be bright: to look twice at these alone would lose light.
+        std::sort(doubts.begin(), doubts.end(), [](const Doubt& a, const Doubt& b) {
+            return a.range > b.range || (a.range == b.range && a.part < b.part);
         });
         std::size_t count = 0;
         for (double left = sum; count < doubts.size() && left > 0.25 * allowed && index + 2 * count < most; ++count) {
-            left -= doubts[count].first;
+            left -= doubts[count].variance;
         }
         bool some_are_dark = false;
         for (std::size_t k = 0; k < count; ++k) {
-            const std::size_t i = doubts[k].second;
+            const std::size_t i = doubts[k].part;
             const auto both = halves(parts[i], range_.longest_edge(parts[i]));
             bool is_replaced = false;
             for (const Piece& half : both) {
-                Part part{half, dvec3(0.0), dvec3(0.0)};
+                Part part{half, {}, {}, {}};
                 if (!measure(part, index++)) continue;
                 if (is_replaced) {
                     parts.push_back(part);
@@ -154,13 +174,12 @@ EmissionSampler::Parts EmissionSampler::parts_of(std::span<const std::uint32_t> 
                 is_replaced = true;
             }
             if (!is_replaced) {
-                parts[i].power = parts[i].uncertainty = dvec3(0.0);
+                parts[i].power = parts[i].range = dvec3(0.0);
                 some_are_dark = true;
             }
         }
         if (some_are_dark) {
-            std::erase_if(parts,
-                          [](const Part& part) { return part.power == dvec3(0.0) && part.uncertainty == dvec3(0.0); });
+            std::erase_if(parts, [](const Part& part) { return part.power == dvec3(0.0) && part.range == dvec3(0.0); });
         }
     }
 }

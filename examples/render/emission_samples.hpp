@@ -32,7 +32,7 @@ public:
     /// `count` points of equal power (sum of channels) that stand for the emission of `triangles`: dense where radiance
     /// is high, evenly spread where it is constant; each has the intensity of its own part, and all together that of
     /// the whole. Empty iff nothing is emitted. cost: O((T + count) log(T + count)), and where the radiance varies as
-    /// many pieces as it takes, at most a million.
+    /// many pieces as it takes, at most half a million.
     std::vector<EmissionSample> spread(std::span<const std::uint32_t> triangles, std::size_t count) const;
 
     /// Area of `triangles` times the sum of channels of the radiance that their fronts emit; to within 5 % where it
@@ -47,8 +47,9 @@ public:
 private:
     /// A piece and what is known of it.
     struct Part : Piece {
-        glm::dvec3 power{0.0};        ///< area x mean radiance
-        glm::dvec3 uncertainty{0.0};  ///< area x range of radiance
+        glm::dvec3 power{0.0};      ///< area x mean radiance
+        glm::dvec3 range{0.0};      ///< area x the range of radiance
+        glm::dvec3 deviation{0.0};  ///< area x the standard deviation of radiance, at most
     };
     /// All that emits of a surface.
     struct Parts {
