@@ -21,7 +21,12 @@ using glm::dvec3;
 
 /// Pieces are this much smaller than a point's share, so that a share is a compact patch.
 constexpr double pieces_per_point = 4.0;
-constexpr double least_pieces = 64.0;
+/// Least number of pieces to begin with where the radiance varies, so that points lie where the light is; fewer where
+/// so few lights are wanted that there must be very many emitters.
+constexpr double least_varying_pieces = 4096.0;
+constexpr double varying_pieces_per_point = 256.0;
+/// To tell the power only.
+constexpr double least_power_pieces = 16.0;
 
 /// The mean radiance of a piece is that of so many points, one in each of its sixteenths.
 constexpr int points_per_piece = 16;
@@ -211,7 +216,9 @@ std::vector<EmissionSample> EmissionSampler::spread(std::span<const std::uint32_
         }
         return samples;
     }
-    Parts known = parts_of(triangles, std::max(pieces_per_point * points, least_pieces), tolerance_);
+    const double pieces = std::max(pieces_per_point * points,
+                                   std::min(varying_pieces_per_point * points, least_varying_pieces));
+    Parts known = parts_of(triangles, pieces, tolerance_);
     largest_error_ = std::max(largest_error_, known.error);
     std::erase_if(known.all, [](const Part& part) { return !(sum_of(part.power) > 0.0); });
     if (known.all.empty() || count == 0) return samples;
@@ -250,7 +257,7 @@ std::vector<EmissionSample> EmissionSampler::spread(std::span<const std::uint32_
 
 double EmissionSampler::power(std::span<const std::uint32_t> triangles) const {
     if (triangles.empty()) return 0.0;
-    if (is_varying(triangles)) return sum_of(parts_of(triangles, least_pieces / 4.0, rough_tolerance).power);
+    if (is_varying(triangles)) return sum_of(parts_of(triangles, least_power_pieces, rough_tolerance).power);
     double power = 0;
     for (const std::uint32_t t : triangles) {
         power += triangle_area(scene_, t) *

@@ -45,7 +45,7 @@ struct Corners {
 /// Where most of some triangles are.
 struct Middle {
     glm::dvec3 center{0.0};
-    double size = 0;  ///< half of them reach no farther than this from the centre
+    double size = 0;  ///< half of them lie in a cube of this size around the centre
 
     bool is_far() const { return size > 0.0 && largest_coordinate(center) > far * size; }
 
@@ -101,7 +101,7 @@ Middle middle_of(const std::vector<Corners>& drawn) {
         middle.center[axis] = median(values);
     }
     for (std::size_t i = 0; i < drawn.size(); ++i) values[i] = drawn[i].reach(middle.center);
-    middle.size = median(values);
+    middle.size = 2.0 * median(values);
     return middle;
 }
 
