@@ -189,6 +189,20 @@ EmissionSampler::Parts EmissionSampler::parts_of(std::span<const std::uint32_t> 
     }
 }
 
+/// True iff the surface shows but one colour of its maps.
+bool EmissionSampler::is_even(std::span<const std::uint32_t> triangles, const Parts& known) const {
+    constexpr double rounding = 1e-6;
+    if (known.all.empty()) return false;
+    double area = 0;
+    for (const std::uint32_t t : triangles) area += triangle_area(scene_, t);
+    const dvec3 mean = known.power / area;
+    // What is dark is in no part, so that the mean of all is less than that of each.
+    return std::all_of(known.all.begin(), known.all.end(), [&](const Part& part) {
+        return part.range == dvec3(0.0) &&
+               largest_of(glm::abs(part.power / part.area - mean)) <= rounding * largest_of(mean);
+    });
+}
+
 /// Not in the holes of a mask, nor where the map is black.
 dvec2 EmissionSampler::lit_place(const Part& part, double along, double across, std::uint64_t index) const {
     constexpr std::uint64_t most_tries = 32;
@@ -206,7 +220,7 @@ dvec2 EmissionSampler::lit_place(const Part& part, double along, double across, 
 std::vector<EmissionSample> EmissionSampler::spread(std::span<const std::uint32_t> triangles, std::size_t count) const {
     std::vector<EmissionSample> samples;
     const double points = static_cast<double>(count);
-    if (!is_varying(triangles)) {
+    const auto spread_evenly = [&] {
         double area = 0;
         for (const std::uint32_t t : triangles) area += triangle_area(scene_, t);
         for (const AreaSample& place : spread_by_area(scene_, triangles, count)) {
@@ -215,10 +229,12 @@ std::vector<EmissionSample> EmissionSampler::spread(std::span<const std::uint32_
             samples.push_back({place, glm::vec3(radiance * (area / points))});
         }
         return samples;
-    }
+    };
+    if (!is_varying(triangles)) return spread_evenly();
     const double pieces = std::max(pieces_per_point * points,
                                    std::min(varying_pieces_per_point * points, least_varying_pieces));
     Parts known = parts_of(triangles, pieces, tolerance_);
+    if (is_even(triangles, known)) return spread_evenly();
     largest_error_ = std::max(largest_error_, known.error);
     std::erase_if(known.all, [](const Part& part) { return !(sum_of(part.power) > 0.0); });
     if (known.all.empty() || count == 0) return samples;

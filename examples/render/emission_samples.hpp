@@ -60,6 +60,7 @@ private:
 
     bool is_varying(std::span<const std::uint32_t> triangles) const;
     Parts parts_of(std::span<const std::uint32_t> triangles, double least_pieces, double tolerance) const;
+    bool is_even(std::span<const std::uint32_t> triangles, const Parts& known) const;
     bool measure(Part& part, std::uint64_t index) const;
     glm::dvec2 lit_place(const Part& part, double along, double across, std::uint64_t index) const;
 

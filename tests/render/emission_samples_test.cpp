@@ -233,6 +233,22 @@ TEST(EmissionSamples, AreTheSameEachTime) {
     }
 }
 
+TEST(EmissionSamples, OfAMapOfOneColorAreThoseWithoutAMap) {
+    Texture map = map_of(32, 16);
+    for (glm::vec4& t : map.texels) t = glm::vec4(0.5f, 0.25f, 1.0f, 1.0f);
+    Scene s = panel(map);
+    power_of_lights(s, 16);
+    Scene plain = panel(map);
+    plain.materials[0].emission_texture.texture = render::no_texture;
+    plain.materials[0].emission *= glm::vec3(0.5f, 0.25f, 1.0f);
+    power_of_lights(plain, 16);
+    ASSERT_EQ(s.oriented.size(), 16u);
+    for (std::size_t i = 0; i < 16; ++i) {
+        EXPECT_EQ(s.oriented[i].position, plain.oriented[i].position);
+        for (int c = 0; c < 3; ++c) EXPECT_FLOAT_EQ(s.oriented[i].intensity[c], plain.oriented[i].intensity[c]);
+    }
+}
+
 TEST(EmissionSamples, NameAMapThatLightsNothing) {
     Texture map = map_of(64, 64);
     add_spot(map, 40, 40, 4, glm::vec3(1.0f));
