@@ -123,7 +123,7 @@ SurfaceColors colors_at(const Scene& scene, std::uint32_t triangle, float u, flo
             colors.specular = material.specular * glm::vec3(texel);
             colors.roughness = 1.0f - (1.0f - material.roughness) * texel.a;
             // What is reflected at the surface does not get below it.
-            colors.base *= 1.0f - std::max({colors.specular.r, colors.specular.g, colors.specular.b});
+            colors.base *= std::max(1.0f - std::max({colors.specular.r, colors.specular.g, colors.specular.b}), 0.0f);
             break;
         }
         case Material::Model::phong:

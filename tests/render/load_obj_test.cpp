@@ -223,7 +223,25 @@ TEST_F(ObjFile, LibrariesAreFoundAsTheyAreWritten) {
     ASSERT_EQ(s.left_out.size(), 1u);
     EXPECT_THAT(s.left_out[0].what, HasSubstr("lost.mat"));
     std::filesystem::remove(folder.path() / "scene.mtl");
-    EXPECT_THAT(refused("mtllib plain.mtl lost.mtl\n" + body), StartsWith("scene.obj:1: the material library "));
+    // What is there is used, and a name is missing only if something has it.
+    for (const char* lines : {"mtllib plain.mtl lost.mtl", "mtllib lost.mtl plain.mtl", "mtllib a lost.mtl plain.mtl",
+                              "mtllib lost.mtl\nmtllib plain.mtl", "mtllib plain.mtl\nmtllib lost.mtl"}) {
+        SCOPED_TRACE(lines);
+        const Scene part = load(lines + ("\n" + body));
+        expect_red_and_green(part);
+        ASSERT_EQ(part.left_out.size(), 1u);
+        EXPECT_THAT(part.left_out[0].what, HasSubstr("lost.mtl"));
+        EXPECT_EQ(part.left_out[0].why, "it is not there");
+    }
+    EXPECT_THAT(refused("mtllib green.mtl lost.mtl\n" + body),
+                StartsWith("scene.obj:1: the material library 'lost.mtl' is not there, and no other has the material "
+                           "'red'"));
+    EXPECT_EQ(load("mtllib lost.mtl\n" + std::string(square) + "f 1 2 3\n").materials[0].base_color, glm::vec3(0.8f));
+    // The file's own name comes last: it does not hide what was found.
+    folder.write("scene.mtl", "newmtl red\nKd 0 0 1\nnewmtl green\nKd 0.1 0.8 0.1\n");
+    expect_red_and_green(load("mtllib plain.mtl lost.mtl\n" + body));
+    expect_red_and_green(load("mtllib only red.mtl lost.mtl\n" + body));
+    std::filesystem::remove(folder.path() / "scene.mtl");
     EXPECT_THAT(refused("v 0 0 0\nmtllib lost one.mtl\n" + body), StartsWith("scene.obj:2: "));
     EXPECT_THAT(refused("mtllib\n" + body), StartsWith("scene.obj:1: 'mtllib' names no file"));
 }
@@ -252,7 +270,7 @@ TEST_F(ObjFile, LinesEndInAnyWay) {
     EXPECT_THAT(refused("v 0 0 0\r\nv 1 0 0\r\nv nan 1 0\r\n"), StartsWith("scene.obj:3: 'nan'"));
     EXPECT_THAT(refused("v 0 0 0\rv 1 0 0\rv nan 1 0\r"), StartsWith("scene.obj:3: 'nan'"));
     folder.write("m.mtl", "newmtl a\n# x\rKe nan 1 1\n");
-    EXPECT_THAT(refused("mtllib m.mtl\n" + std::string(square) + "f 1 2 3\n"), StartsWith("m.mtl:3: 'nan'"));
+    EXPECT_THAT(refused("mtllib m.mtl\n" + std::string(square) + "usemtl a\nf 1 2 3\n"), StartsWith("m.mtl:3: 'nan'"));
     EXPECT_THAT(refused("\xFF\xFEv\0 "), HasSubstr("UTF-16"));
 }
 
@@ -286,10 +304,12 @@ TEST_F(ObjFile, AcceptsWhatTheFormatAllows) {
     }
     const Scene numbers = load("v -1.0E+00 0. 1.e0 2\nv +1 0 1 # first\nv .1e1 -0 -1\nv 1e-400 0 0\nf 1 2 3\n");
     EXPECT_EQ(numbers.positions[0], glm::vec3(-1, 0, 1));
-    const Scene rest = load(std::string(square) + "p 1\nl 1 2\ncstype bezier\nsurf 0 1\nend\nfoo 1\nbar 2\nf 1 2 3\n");
+    const Scene rest = load(std::string(square) +
+                            "p 1\nl 1 2\ncstype bezier\nsurf 0 1\nend\nfoo 1\nbar 2\nfoo 3\nf 1 2 3\n");
     EXPECT_EQ(rest.triangles.size(), 1u);
-    ASSERT_EQ(rest.left_out.size(), 3u);
+    ASSERT_EQ(rest.left_out.size(), 4u) << "each unknown keyword once";
     EXPECT_THAT(rest.left_out[2].what, HasSubstr("'foo' in line 10"));
+    EXPECT_THAT(rest.left_out[3].what, HasSubstr("'bar' in line 11"));
 }
 
 TEST_F(ObjFile, RefusesWhatItDoesNotAllow) {
