@@ -233,7 +233,7 @@ TEST(GltfAccessors, HoldFiniteNumbers) {
             values[7] = bad;
             attributes[name] = file.add(values, "VEC3", 3);
             file.add_node({{"mesh", file.add_mesh(attributes)}});
-            EXPECT_THAT(refused(file), testing::AllOf(HasSubstr(name), HasSubstr("element 2 is not finite")));
+            EXPECT_THAT(refused(file), testing::AllOf(HasSubstr(name), HasSubstr("vertex 2 is not finite")));
         }
         GltfBuilder file = skinned(Json::object(), Json::object());
         std::vector<float> matrix{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};

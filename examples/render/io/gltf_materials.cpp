@@ -191,7 +191,7 @@ void GltfMaterials::convert_normals(const JsonObject& source, Material& m) {
         m.normal_texture = texture(source, "normalTexture", Coding::data, source);
     } catch (const invalid_input& problem) {
         // A picture without it is flat, not wrong in its light.
-        leave_out(scene_.left_out, "a normal map", problem.what());
+        leave_out(scene_.left_out, std::string("a normal map (") + problem.what() + ")", "it cannot be read");
     }
 }
 

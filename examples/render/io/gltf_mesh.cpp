@@ -59,7 +59,8 @@ std::vector<double> GltfMeshes::attribute(const JsonObject& attributes, const ch
     if (!accessor) return {};
     std::vector<double> values;
     try {
-        values = read_accessor(document_, *accessor, components);
+        constexpr std::size_t all = std::numeric_limits<std::size_t>::max();
+        values = read_accessor(document_, *accessor, components, all, "vertex");
     } catch (const lightcuts::invalid_input& problem) { attributes.fail(std::string(name) + ": " + problem.what()); }
     if (values.size() != count * components) {
         attributes.fail("its attributes differ in length; the file is damaged");
