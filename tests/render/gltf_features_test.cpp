@@ -644,6 +644,17 @@ TEST(GltfLight, IgnoresScales) {
     EXPECT_TRUE(leaves_out(s, "extras"));
 }
 
+TEST(GltfLight, IsNoBrighterThanAFloatHolds) {
+    GltfBuilder file;
+    file.add_node({{"mesh", file.add_mesh(file.square())}});
+    file.json["extensions"]["KHR_lights_punctual"]["lights"] = Json::array(
+        {{{"type", "point"}, {"name", "flare"}, {"intensity", 3e38}, {"color", {1, 2, 1}}}});
+    file.add_node({{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+    EXPECT_THAT(refusal([&] { file.load(); }), HasSubstr("light 'flare': its intensity times its color is too large"));
+    file.json["extensions"]["KHR_lights_punctual"]["lights"][0]["color"] = {1, 1, 1};
+    EXPECT_EQ(file.load().omni.at(0).intensity, glm::vec3(3e38f));
+}
+
 TEST(GltfNodes, AreATree) {
     GltfBuilder file;
     const std::size_t mesh = file.add_mesh(file.square());

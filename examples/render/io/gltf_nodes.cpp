@@ -171,7 +171,7 @@ void GltfNodes::compose() {
 std::vector<std::size_t> GltfNodes::roots() const {
     if (document_.count("scenes") > 0) {
         const JsonObject scene = document_.element("scenes", document_.root().whole_number("scene", 0), "scene");
-        const std::vector<std::size_t> roots = scene.indices("nodes");
+        std::vector<std::size_t> roots = scene.indices("nodes");
         for (const std::size_t root : roots) {
             json(root);
             if (parent_[root] != none) scene.fail("node " + std::to_string(root) + " is no root; correct `nodes`");
