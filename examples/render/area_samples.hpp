@@ -18,12 +18,6 @@ struct AreaSample {
     std::uint32_t triangle = 0;
 };
 
-/// A piece of an emitter seen as a point.
-struct EmissionSample {
-    AreaSample place;
-    glm::vec3 intensity{0.0f};  ///< along the normal, W/sr
-};
-
 /// Area of triangle `t`.
 double triangle_area(const Scene& scene, std::uint32_t t);
 
@@ -31,14 +25,5 @@ double triangle_area(const Scene& scene, std::uint32_t t);
 /// a curved one each has an equal share of the area along a space-filling curve, so that the tessellation matters
 /// little. cost: O((T + count) log(T + count)).
 std::vector<AreaSample> spread_by_area(const Scene& scene, std::span<const std::uint32_t> triangles, std::size_t count);
-
-/// `count` points of equal power (sum of channels) that stand for the emission of `triangles`: dense where radiance
-/// is high, evenly spread where it is constant. Empty iff nothing is emitted. cost: likewise.
-std::vector<EmissionSample> spread_by_emission(const Scene& scene, std::span<const std::uint32_t> triangles,
-                                               std::size_t count);
-
-/// Area of `triangles` times the sum of channels of the radiance that their fronts emit, taken at 64 points where it
-/// varies.
-double emitted_power(const Scene& scene, std::span<const std::uint32_t> triangles);
 
 }  // namespace render

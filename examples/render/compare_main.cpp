@@ -37,6 +37,13 @@ void write_colors(const std::string& path, const Picture& picture, const std::ve
     write_png(path, picture.width, picture.height, colors);
 }
 
+/// throws: invalid_input if the output is one of the pictures that are read.
+void require_outputs_apart(const CompareOptions& options) {
+    for (const std::string& input : {options.picture, options.reference}) {
+        if (!options.out.empty() && !input.empty()) require_apart(options.out, input);
+    }
+}
+
 void compare_pictures(const CompareOptions& options) {
     /// Relative error that the heat map shows as white.
     constexpr double usual_white = 0.1;
@@ -104,6 +111,7 @@ int run(int argc, const char* const* argv) {
     if (options.layer.empty() && options.reference.empty()) {
         throw CLI::RequiredError("a reference B, or --layer NAME,");
     }
+    require_outputs_apart(options);
     if (options.layer.empty()) {
         compare_pictures(options);
     } else {

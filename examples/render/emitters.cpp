@@ -1,10 +1,9 @@
 #include "emitters.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
 #include <numeric>
+#include <sstream>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -13,15 +12,17 @@
 #include <lightcuts/core/invalid_input.hpp>
 
 #include "area_samples.hpp"
+#include "emission_samples.hpp"
+#include "triangle.hpp"
 
 namespace render {
 namespace {
 
 constexpr std::size_t most_lights = 100'000'000;
 
-/// Distance of a light from its surface, as a share of its largest coordinate and of the surface's size: well above
-/// the rounding of an intersection, far below what can be seen.
-constexpr float offset_share = 0x1p-16f;
+/// Distance of a light from its surface, as a share of `Triangle::scale_at`: sixteen steps of a float, above the
+/// rounding of the place and of an intersection there, far below what a cover's distance may be.
+constexpr float light_offset_share = 0x1p-20f;
 
 bool is_emissive(const Scene& scene, std::size_t triangle) {
     const Material& material = scene.materials[scene.triangle_material[triangle]];
@@ -96,13 +97,11 @@ std::size_t sides_of(const Scene& scene, const EmissiveSurface& surface) {
     return scene.materials[surface.material].double_sided ? 2 : 1;
 }
 
-/// Sum of channels of the power that each surface emits, up to a factor common to all.
-std::vector<double> powers_of(const Scene& scene, const std::vector<EmissiveSurface>& surfaces) {
+/// Sum of channels of the power that each surface emits on one side, up to a factor common to all.
+std::vector<double> powers_of(const EmissionSampler& sampler, const std::vector<EmissiveSurface>& surfaces) {
     std::vector<double> powers;
     powers.reserve(surfaces.size());
-    for (const EmissiveSurface& surface : surfaces) {
-        powers.push_back(emitted_power(scene, surface.triangles) * static_cast<double>(sides_of(scene, surface)));
-    }
+    for (const EmissiveSurface& surface : surfaces) powers.push_back(sampler.power(surface.triangles));
     return powers;
 }
 
@@ -114,8 +113,8 @@ std::size_t total_of(const EmitterLightOptions& options, std::size_t sides) {
 }
 
 /// Lights on each side of each surface: `options.points`, or so many that they are about `options.total` in all.
-std::vector<std::size_t> points_of(const Scene& scene, const std::vector<EmissiveSurface>& surfaces,
-                                   const EmitterLightOptions& options) {
+std::vector<std::size_t> points_of(const Scene& scene, const EmissionSampler& sampler,
+                                   const std::vector<EmissiveSurface>& surfaces, const EmitterLightOptions& options) {
     std::vector<std::size_t> points(surfaces.size(), options.points);
     std::size_t sides = 0;
     for (const EmissiveSurface& surface : surfaces) sides += sides_of(scene, surface);
@@ -123,7 +122,7 @@ std::vector<std::size_t> points_of(const Scene& scene, const std::vector<Emissiv
     if (total == 0 || sides <= total / options.points) return points;
 
     // One factor of all powers, within the least and the most that a surface may have.
-    const std::vector<double> powers = powers_of(scene, surfaces);
+    const std::vector<double> powers = powers_of(sampler, surfaces);
     const auto set_by = [&](double factor) {
         std::size_t sum = 0;
         for (std::size_t i = 0; i < surfaces.size(); ++i) {
@@ -146,12 +145,41 @@ std::vector<std::size_t> points_of(const Scene& scene, const std::vector<Emissiv
     return points;
 }
 
+/// The materials of `surfaces`, each once.
+std::vector<std::uint32_t> materials_of(const std::vector<EmissiveSurface>& surfaces) {
+    std::vector<std::uint32_t> materials;
+    for (const EmissiveSurface& surface : surfaces) materials.push_back(surface.material);
+    std::sort(materials.begin(), materials.end());
+    materials.erase(std::unique(materials.begin(), materials.end()), materials.end());
+    return materials;
+}
+
+/// Notes materials that emit by their factors and maps, but nowhere on their surfaces, and maps that are too fine.
+void note_what_is_lost(Scene& scene, const EmissionSampler& sampler, const std::vector<std::uint32_t>& materials,
+                       const std::vector<bool>& has_lights) {
+    constexpr double large_error = 0.01;
+    for (const std::uint32_t m : materials) {
+        const Material& material = scene.materials[m];
+        if (has_lights[m] || !sampler.range().is_lit(material)) continue;
+        leave_out(scene.left_out, "the light of the material '" + material.name + "'",
+                  "its surfaces show no part of its emission map that is bright, or are not there where it is");
+    }
+    if (sampler.largest_error() > large_error) {
+        std::ostringstream why;
+        why << "what an emission map shows is too fine; its surface's light may be off by "
+            << 100.0 * sampler.largest_error() << " %";
+        leave_out(scene.left_out, "details of emission", why.str());
+    }
+}
+
 }  // namespace
 
 void add_emitter_lights(Scene& scene, const EmitterLightOptions& options) {
     if (options.points == 0) return;
     const std::vector<EmissiveSurface> surfaces = emissive_surfaces(scene);
-    const std::vector<std::size_t> points = points_of(scene, surfaces, options);
+    const std::vector<std::uint32_t> materials = materials_of(surfaces);
+    const EmissionSampler sampler(scene, materials, surfaces.size());
+    const std::vector<std::size_t> points = points_of(scene, sampler, surfaces, options);
     std::size_t all = 0;
     for (std::size_t i = 0; i < surfaces.size(); ++i) all += points[i] * sides_of(scene, surfaces[i]);
     if (all > most_lights) {
@@ -159,18 +187,21 @@ void add_emitter_lights(Scene& scene, const EmitterLightOptions& options) {
                                        std::to_string(surfaces.size()) +
                                        " emissive surfaces are too many; lower --area-points or --area-lights");
     }
+    std::vector<bool> has_lights(scene.materials.size());
     for (std::size_t i = 0; i < surfaces.size(); ++i) {
         const EmissiveSurface& surface = surfaces[i];
         const bool both_sides = sides_of(scene, surface) == 2;
-        const auto size = static_cast<float>(std::sqrt(surface.area));
-        for (const EmissionSample& sample : spread_by_emission(scene, surface.triangles, points[i])) {
+        for (const EmissionSample& sample : sampler.spread(surface.triangles, points[i])) {
             const glm::vec3 p = sample.place.position;
             const glm::vec3 n = sample.place.normal;
-            const float offset = offset_share * std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z), size});
+            const Triangle triangle(scene, sample.place.triangle);
+            const float offset = light_offset_share * static_cast<float>(triangle.scale_at(glm::dvec3(p)));
             scene.oriented.push_back({p + offset * n, n, sample.intensity});
             if (both_sides) scene.oriented.push_back({p - offset * n, -n, sample.intensity});
+            has_lights[surface.material] = true;
         }
     }
+    note_what_is_lost(scene, sampler, materials, has_lights);
 }
 
 }  // namespace render

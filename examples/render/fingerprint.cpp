@@ -118,7 +118,7 @@ void add_scene(Fingerprint& print, const Scene& scene) {
     const auto& [name, origin, positions, normals, tangents, colors, uv_sets, triangles, triangle_material, materials,
                  textures, cameras, omni, oriented, spots, directional, spheres, sphere_points, virtual_lights,
                  environment_lights, sun_lights, sky_lights, ground_lights, lighting, background, dropped_triangles,
-                 dropped_lights, left_out] = scene;
+                 dropped_lights, left_out, files] = scene;
     ContentHash surfaces, matter, lights, around;
     surfaces.add(origin).add(positions).add(normals).add(tangents).add(colors).add(uv_sets.size());
     for (const std::vector<glm::vec2>& uvs : uv_sets) surfaces.add(uvs);
@@ -186,9 +186,9 @@ std::string Fingerprint::difference(const Fingerprint& now) const {
 }
 
 Fingerprint fingerprint_of(const Options& options, const Scene& scene, const Camera& camera, const RayScene& rays,
-                           const std::string& version) {
+                           const std::string& program) {
     Fingerprint print;
-    print.add("lightcuts-render", version);
+    print.add("lightcuts-render", program);
     print.add("the ray tracer", ray_tracer(rays));
     add_options(print, options);
     add_camera(print, camera);

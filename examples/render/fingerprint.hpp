@@ -28,9 +28,9 @@ private:
     std::vector<std::pair<std::string, std::string>> items_;
 };
 
-/// Of the picture that `options` ask for of `camera` in the prepared `scene`, by this program, `version`, on this
+/// Of the picture that `options` ask for of `camera` in the prepared `scene`, by this program, `program`, on this
 /// machine. Not in it: where it goes, the number of threads, and how the scene's files are called.
 Fingerprint fingerprint_of(const Options& options, const Scene& scene, const Camera& camera, const RayScene& rays,
-                           const std::string& version);
+                           const std::string& program);
 
 }  // namespace render

@@ -11,6 +11,8 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "triangle.hpp"
+
 namespace render {
 namespace {
 
@@ -23,11 +25,6 @@ constexpr double flatness = 1e-5;
 constexpr std::size_t most_tries = 64;
 
 double cross(const dvec2& a, const dvec2& b) { return a.x * b.y - a.y * b.x; }
-
-std::array<dvec3, 3> corners(const Scene& scene, std::uint32_t t) {
-    const glm::uvec3 i = scene.triangles[t];
-    return {dvec3(scene.positions[i.x]), dvec3(scene.positions[i.y]), dvec3(scene.positions[i.z])};
-}
 
 /// A rectangle in space: origin, unit sides x and y, lengths.
 struct Rectangle {
@@ -46,19 +43,19 @@ std::optional<dvec3> common_normal(const Scene& scene, std::span<const std::uint
     dvec3 low(std::numeric_limits<double>::max());
     dvec3 high(-low);
     for (const std::uint32_t t : triangles) {
-        const auto [a, b, c] = corners(scene, t);
+        const auto [a, b, c] = Triangle(scene, t);
         sum += glm::cross(b - a, c - a);
         low = glm::min(low, glm::min(a, glm::min(b, c)));
         high = glm::max(high, glm::max(a, glm::max(b, c)));
     }
     if (!(glm::length(sum) > 0.0)) return std::nullopt;
     const dvec3 normal = glm::normalize(sum);
-    const dvec3 anchor = corners(scene, triangles.front())[0];
+    const dvec3 anchor = Triangle(scene, triangles.front()).a;
     const double tolerance = flatness * glm::length(high - low);
     for (const std::uint32_t t : triangles) {
-        const auto points = corners(scene, t);
-        if (glm::dot(glm::cross(points[1] - points[0], points[2] - points[0]), normal) <= 0.0) return std::nullopt;
-        for (const dvec3& p : points) {
+        const Triangle triangle(scene, t);
+        if (glm::dot(triangle.cross(), normal) <= 0.0) return std::nullopt;
+        for (const dvec3& p : {triangle.a, triangle.b, triangle.c}) {
             if (std::abs(glm::dot(p - anchor, normal)) > tolerance) return std::nullopt;
         }
     }
@@ -108,10 +105,11 @@ Rectangle smallest_rectangle(const Scene& scene, std::span<const std::uint32_t> 
     const dvec3 across = std::abs(normal.x) < 0.5 ? dvec3(1.0, 0.0, 0.0) : dvec3(0.0, 1.0, 0.0);
     const dvec3 s = glm::normalize(across - glm::dot(across, normal) * normal);
     const dvec3 t = glm::cross(normal, s);
-    const double offset = glm::dot(corners(scene, triangles.front())[0], normal);
+    const double offset = glm::dot(Triangle(scene, triangles.front()).a, normal);
     std::vector<dvec2> projected;
     for (const std::uint32_t triangle : triangles) {
-        for (const dvec3& p : corners(scene, triangle)) projected.emplace_back(glm::dot(p, s), glm::dot(p, t));
+        const auto [a, b, c] = Triangle(scene, triangle);
+        for (const dvec3& p : {a, b, c}) projected.emplace_back(glm::dot(p, s), glm::dot(p, t));
     }
     std::vector<dvec3> hull;
     for (const dvec2& p : convex_hull(std::move(projected))) hull.push_back(p.x * s + p.y * t + offset * normal);
@@ -146,7 +144,7 @@ std::vector<AreaSample> spread_on_flat(const Scene& scene, std::span<const std::
     const Rectangle rectangle = smallest_rectangle(scene, triangles, *normal);
     std::vector<std::array<dvec2, 3>> local;
     for (const std::uint32_t t : triangles) {
-        const auto [a, b, c] = corners(scene, t);
+        const auto [a, b, c] = Triangle(scene, t);
         local.push_back({rectangle.local(a), rectangle.local(b), rectangle.local(c)});
     }
     const double slack = -1e-12 * rectangle.width * rectangle.width;

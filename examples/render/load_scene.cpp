@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 #include <filesystem>
 #include <optional>
@@ -10,8 +9,10 @@
 #include <lightcuts/core/invalid_input.hpp>
 
 #include "builtin.hpp"
+#include "io/file_source.hpp"
 #include "io/load_gltf.hpp"
 #include "io/load_obj.hpp"
+#include "text_file.hpp"
 #include "validate.hpp"
 
 namespace render {
@@ -94,17 +95,17 @@ Scene load_scene(std::string_view path_or_builtin) {
         scene.name = path_or_builtin;
     } else {
         const std::filesystem::path path(path_or_builtin);
-        std::string extension = path.extension().string();
-        std::transform(extension.begin(), extension.end(), extension.begin(),
-                       [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+        const std::string extension = in_lower_case(path.extension().string());
+        const DiskFiles files;
         if (extension == ".gltf" || extension == ".glb") {
-            scene = load_gltf(path);
+            scene = load_gltf(path, files);
         } else if (extension == ".obj") {
-            scene = load_obj(path);
+            scene = load_obj(path, files);
         } else {
             fail(path_or_builtin,
                  "not a kind of scene that can be read; give a .gltf, .glb or .obj file, or builtin:NAME");
         }
+        scene.files = files.taken();
     }
     validate(scene);
     return scene;

@@ -21,6 +21,7 @@
 #include "outputs.hpp"
 #include "picture.hpp"
 #include "prepare_scene.hpp"
+#include "program.hpp"
 #include "ray_scene.hpp"
 #include "ray_tracer.hpp"
 #include "render_loop.hpp"
@@ -31,10 +32,6 @@
 #include "surface.hpp"
 #include "validate.hpp"
 #include "view.hpp"
-
-#ifndef LIGHTCUTS_VERSION
-#define LIGHTCUTS_VERSION "unknown"
-#endif
 
 namespace {
 
@@ -102,6 +99,15 @@ Camera choose_camera(const Scene& scene, const Options& options) {
     if (options.fov) camera.vertical_fov = *options.fov;
     require_usable(camera, options.eye ? "--eye, --target" : scene.name + ": camera '" + camera.name + "'");
     return camera;
+}
+
+/// The files that the picture is made of, and that with which it is compared.
+std::vector<std::filesystem::path> inputs_of(const Options& options, const Scene& scene) {
+    std::vector<std::filesystem::path> files = scene.files;
+    for (const std::filesystem::path& file : {options.lights, options.env, options.reference}) {
+        if (!file.empty()) files.push_back(file);
+    }
+    return files;
 }
 
 void warn(const std::string& message) {
@@ -180,6 +186,7 @@ ExitStatus render_scene(Options options) {
     Stopwatch watch;
     const RayTracer tracer(options.isa);
     Scene scene = prepare_scene(options);
+    outputs.require_no_input(inputs_of(options, scene));
     const Camera camera = choose_camera(scene, options);
     say_what_is_left_out(scene, options);
     const RayScene rays(scene, tracer);
@@ -198,7 +205,7 @@ ExitStatus render_scene(Options options) {
         const SurfaceFinder surfaces(scene, rays, shade);
         report.adaptation = options.adaptation ? *options.adaptation : measure_adaptation(view, surfaces, *shader);
         shader->adapt(report.adaptation);
-        const Fingerprint fingerprint = fingerprint_of(options, scene, camera, rays, LIGHTCUTS_VERSION);
+        const Fingerprint fingerprint = fingerprint_of(options, scene, camera, rays, program_build());
         defer_signals();
         if (options.resume && tiles.is_there()) {
             tiles.go_on(fingerprint);
@@ -219,7 +226,7 @@ ExitStatus render_scene(Options options) {
 ExitStatus run(const Options& options) {
     switch (options.action) {
         case Options::Action::help: print(options.help); return done;
-        case Options::Action::version: print("lightcuts-render " LIGHTCUTS_VERSION "\n"); return done;
+        case Options::Action::version: print("lightcuts-render " + program_version() + "\n"); return done;
         case Options::Action::list_scenes: {
             std::string names;
             for (const std::string& name : builtin_names()) names += "builtin:" + name + "\n";

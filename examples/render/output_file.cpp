@@ -63,6 +63,14 @@ void require_writable(const std::filesystem::path& path) {
     const OutputFile probe(path);
 }
 
+void require_apart(const std::filesystem::path& output, const std::filesystem::path& input) {
+    std::error_code absent;
+    if (!std::filesystem::equivalent(output, input, absent)) return;
+    const std::string which = output == input ? "" : ", which is " + input.string();
+    throw lightcuts::invalid_input(output.string() + ": would replace a file that is read" + which +
+                                   "; write to another name");
+}
+
 OutputFile::OutputFile(std::filesystem::path target)
     : name_(std::move(target)), target_(replaceable(name_)), temporary_(create_beside(target_, name_)) {}
 

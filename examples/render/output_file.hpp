@@ -13,6 +13,9 @@ namespace render {
 /// a regular file that may be replaced has the name. Leaves nothing behind, not even what killed programs left there.
 void require_writable(const std::filesystem::path& path);
 
+/// throws: invalid_input if what is written to `output` would replace the file `input`, whatever links lead there.
+void require_apart(const std::filesystem::path& output, const std::filesystem::path& input);
+
 /// A file under a temporary name beside its target. `commit` gives it the target's name in one step; without it the
 /// file is deleted, so that a target is either the old file or a whole new one. Of a symbolic link the target is what
 /// it leads to, whether that exists or not. What fails names the target as it was given.

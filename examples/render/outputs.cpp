@@ -91,12 +91,23 @@ Outputs::Outputs(const std::filesystem::path& picture)
 Outputs Outputs::of_unfinished() const {
     const bool taken = is_there(exr) || is_there(png) || is_there(json);
     if (!taken || tells_of_interruption(json)) return *this;
+    return of_part();
+}
+
+Outputs Outputs::of_part() const {
     const std::string extension = exr.extension().string();
     return Outputs(beside(exr, ".partial" + (extension.empty() ? ".exr" : extension)));
 }
 
 void Outputs::require_all_writable() const {
     for (const auto& path : {exr, png, json}) require_writable(path);
+}
+
+void Outputs::require_no_input(const std::vector<std::filesystem::path>& inputs) const {
+    const Outputs part = of_part();
+    for (const auto& output : {exr, png, json, part.exr, part.png, part.json}) {
+        for (const auto& input : inputs) require_apart(output, input);
+    }
 }
 
 void save(const Outputs& outputs, const Picture& picture, const RunReport& report) {

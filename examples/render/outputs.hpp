@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include "picture.hpp"
 #include "statistics.hpp"
@@ -22,6 +23,13 @@ struct Outputs {
 
     /// throws: invalid_input unless the first three can be written.
     void require_all_writable() const;
+
+    /// throws: invalid_input if one of the files that may be written, also of an unfinished picture, is one of
+    /// `inputs`, whatever links lead there.
+    void require_no_input(const std::vector<std::filesystem::path>& inputs) const;
+
+private:
+    Outputs of_part() const;
 };
 
 /// Writes the picture, the tone-mapped one and the report. throws: invalid_input naming what could not be written and

@@ -7,9 +7,13 @@
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <tuple>
+
+#include <glm/geometric.hpp>
 
 #include "memory.hpp"
 #include "surface_colors.hpp"
+#include "triangle.hpp"
 
 namespace render {
 
@@ -21,43 +25,113 @@ constexpr unsigned translucent_geometry = 1;
 /// Below this a ray counts as blocked: less than a step of an 8-bit picture.
 constexpr float blocked_below = 1e-4f;
 
-/// Where a shadow ray has passed through a surface.
+/// Where a shadow ray meets a surface that lets light pass. Without initial values, as each ray has room for many.
 struct Passage {
-    std::uint32_t triangle = 0;
-    float distance = 0;
+    std::uint32_t triangle;
+    float distance;
+    float u;
+    float v;
+    glm::vec3 tint;
 };
 
-/// A shadow ray's context: Embree hands it to the filter, which multiplies the tints.
+/// The most passages of a shadow ray: twice as many as the layers through which eye rays pass.
+constexpr std::size_t most_passages = 128;
+
+/// A shadow ray's context: Embree hands it to the filter, which notes the passages, in any order.
 struct LightContext {
     QueryContext embree;
-    glm::vec3 passed{1.0f};
-    std::array<Passage, 4> last;  ///< the latest passages, in a ring
-    unsigned passages = 0;        ///< so far
+    glm::vec3 direction;
+    std::size_t count = 0;
+    glm::vec3 product{1.0f};  ///< of all tints: at most what passes
+    std::array<Passage, most_passages> passages;
 };
 
-/// True iff two corners of each lie at the same places.
-bool share_an_edge(const Scene& scene, std::uint32_t a, std::uint32_t b) {
-    const auto is_corner_of_b = [&](std::uint32_t corner) {
-        const glm::uvec3 t = scene.triangles[b];
-        const glm::vec3& p = scene.positions[corner];
-        return p == scene.positions[t.x] || p == scene.positions[t.y] || p == scene.positions[t.z];
-    };
-    const glm::uvec3 t = scene.triangles[a];
-    return int{is_corner_of_b(t.x)} + int{is_corner_of_b(t.y)} + int{is_corner_of_b(t.z)} == 2;
+/// A total order of tints.
+bool is_darker(const glm::vec3& a, const glm::vec3& b) {
+    const auto key = [](const glm::vec3& tint) { return std::tuple(tint.r + tint.g + tint.b, tint.r, tint.g); };
+    return key(a) < key(b);
 }
 
-/// Notes a passage. False if it is one that is known: a ray through an edge meets the triangles on both sides of it.
-bool is_new(const Scene& scene, const Passage& here, LightContext& context) {
-    constexpr float same_distance = 1e-4f;  // relative: planes that meet at the edge are intersected each on its own
-    const unsigned known = std::min<unsigned>(context.passages, static_cast<unsigned>(context.last.size()));
-    for (unsigned i = 0; i < known; ++i) {
-        const Passage& other = context.last[i];
-        const bool near = std::abs(here.distance - other.distance) <= same_distance * here.distance;
-        if (near && share_an_edge(scene, here.triangle, other.triangle)) return false;
-    }
-    context.last[context.passages++ % context.last.size()] = here;
-    return true;
+/// The barycentric coordinate of `p` that is 0 on the edge opposite to the corner at `corner`, a vertex of it.
+float opposite_coordinate(const glm::uvec3& t, std::uint32_t corner, const Passage& p) {
+    return corner == t.x ? 1.0f - p.u - p.v : corner == t.y ? p.u : p.v;
 }
+
+/// True iff both lie on one edge of their triangles, up to rounding: a ray through an edge meets both of its sides.
+bool are_on_one_edge(const Scene& scene, const Passage& a, const Passage& b) {
+    constexpr float at_edge = 1e-5f;
+    const glm::uvec3 s = scene.triangles[a.triangle];
+    const glm::uvec3 t = scene.triangles[b.triangle];
+    const auto is_corner = [&](const glm::uvec3& other, std::uint32_t corner) {
+        const glm::vec3& p = scene.positions[corner];
+        return p == scene.positions[other.x] || p == scene.positions[other.y] || p == scene.positions[other.z];
+    };
+    const auto is_at_common_edge = [&](const glm::uvec3& own, const glm::uvec3& other, const Passage& p) {
+        int common = 0;
+        float coordinate = 1.0f;
+        for (int i = 0; i < 3; ++i) {
+            if (is_corner(other, own[i])) {
+                ++common;
+            } else {
+                coordinate = opposite_coordinate(own, own[i], p);
+            }
+        }
+        return common == 2 && std::abs(coordinate) <= at_edge;
+    };
+    return is_at_common_edge(s, t, a) && is_at_common_edge(t, s, b);
+}
+
+/// Where an eye ray goes on from a layer.
+struct Start {
+    glm::dvec3 position;
+
+    Start(const Scene& scene, const Passage& layer, const glm::dvec3& direction) {
+        const Triangle triangle(scene, layer.triangle);
+        position = triangle.at(static_cast<double>(layer.u), static_cast<double>(layer.v));
+        const glm::dvec3 cross = triangle.cross();
+        const double length = glm::length(cross);
+        if (!(length > 0.0)) return;
+        const double side = glm::dot(cross, direction) < 0.0 ? -1.0 : 1.0;
+        position += side * static_cast<double>(ray_offset(triangle, position)) / length * cross;
+    }
+
+    /// True iff the plane of the passage lies behind, for a ray along `direction`.
+    bool is_beyond(const Scene& scene, const Passage& passage, const glm::dvec3& direction) const {
+        const Triangle triangle(scene, passage.triangle);
+        const glm::dvec3 normal = triangle.cross();
+        const double height = glm::dot(triangle.a - position, normal);
+        const double slope = glm::dot(direction, normal);
+        return slope == 0.0 || height / slope <= 0.0;
+    }
+};
+
+/// What passes all layers. Surfaces that an eye ray through a layer would begin behind belong to that layer, and so do
+/// those that meet in an edge on which both are hit.
+glm::vec3 light_through(const Scene& scene, LightContext& context) {
+    const auto begin = context.passages.begin();
+    const auto end = begin + static_cast<std::ptrdiff_t>(context.count);
+    if (context.count < 2) return context.product;
+    std::sort(begin, end, [](const Passage& a, const Passage& b) {
+        if (a.distance != b.distance) return a.distance < b.distance;
+        return is_darker(a.tint, b.tint) || (!is_darker(b.tint, a.tint) && a.triangle < b.triangle);
+    });
+    const glm::dvec3 direction(context.direction);
+    glm::vec3 passed(1.0f);
+    for (auto layer = begin; layer != end;) {
+        const Start start(scene, *layer, direction);
+        glm::vec3 tint = layer->tint;
+        auto next = layer + 1;
+        for (; next != end; ++next) {
+            if (!start.is_beyond(scene, *next, direction) && !are_on_one_edge(scene, *layer, *next)) break;
+            if (is_darker(next->tint, tint)) tint = next->tint;
+        }
+        passed *= tint;
+        layer = next;
+    }
+    return passed;
+}
+
+bool is_blocked(const glm::vec3& passed) { return std::max({passed.x, passed.y, passed.z}) < blocked_below; }
 
 RTCRay make_ray(const glm::vec3& origin, const glm::vec3& direction, float end) {
     RTCRay ray{};
@@ -154,9 +228,12 @@ glm::vec3 RayScene::pass(const glm::vec3& from, const glm::vec3& direction, floa
     RTCRay ray = make_ray(from, direction, end);
     LightContext context;
     init_context(context.embree);
+    context.direction = direction;
     occluded(scene_, context.embree, ray);
     // Embree marks a blocked ray by a negative end.
-    return ray.tfar < 0 ? glm::vec3(0.0f) : context.passed;
+    if (ray.tfar < 0) return glm::vec3(0.0f);
+    const glm::vec3 passed = light_through(source_, context);
+    return is_blocked(passed) ? glm::vec3(0.0f) : passed;
 }
 
 glm::vec3 RayScene::to_point(const glm::vec3& from, const glm::vec3& to) const {
@@ -184,15 +261,21 @@ void RayScene::pass_light(const RTCFilterFunctionNArguments* arguments) {
     if (arguments->valid[0] == 0) return;
     auto& context = *reinterpret_cast<LightContext*>(arguments->context);
     const std::uint32_t triangle = self.translucent_[RTCHitN_primID(arguments->hit, 1, 0)];
-    const Passage here{triangle, RTCRayN_tfar(arguments->ray, 1, 0)};
-    if (!is_new(self.source_, here, context)) {
-        arguments->valid[0] = 0;
-        return;
+    Passage here{};
+    here.triangle = triangle;
+    here.distance = RTCRayN_tfar(arguments->ray, 1, 0);
+    here.u = RTCHitN_u(arguments->hit, 1, 0);
+    here.v = RTCHitN_v(arguments->hit, 1, 0);
+    here.tint = tint_at(self.source_, triangle, here.u, here.v);
+    const bool is_clear = here.tint == glm::vec3(1.0f);
+    const bool has_room = context.count < most_passages;
+    if (!is_clear && has_room) {
+        context.passages[context.count++] = here;
+        context.product *= here.tint;
     }
-    context.passed *= tint_at(self.source_, triangle, RTCHitN_u(arguments->hit, 1, 0), RTCHitN_v(arguments->hit, 1, 0));
-    const glm::vec3& passed = context.passed;
-    const bool blocked = std::max({passed.x, passed.y, passed.z}) < blocked_below;
-    if (!blocked) arguments->valid[0] = 0;
+    // If layers that are met twice make it look dark, the truth is worth its cost.
+    const bool is_dark = is_blocked(context.product) && is_blocked(light_through(self.source_, context));
+    if (is_clear || (has_room && !is_dark)) arguments->valid[0] = 0;
 }
 
 }  // namespace render

@@ -46,8 +46,9 @@ public:
     /// plain occlusion queries of `embree_scene()` (single, packets or streams) answer the same.
     bool transmissive() const { return transmissive_; }
 
-    /// Share of light that travels between two points, each channel in [0, 1]: the product of the tints of the surfaces
-    /// between them. The ray stops just short of `to`, which may lie on a surface.
+    /// Share of light that travels between two points, each channel in [0, 1]: the product of the tints of the layers
+    /// between them. What lies in one place is one layer, as for eye rays that go on from there at the distance of
+    /// `SurfaceGeometry::leave`; the least transmitting counts. The ray stops a few steps of a float short of `to`.
     glm::vec3 to_point(const glm::vec3& from, const glm::vec3& to) const;
 
     /// The same towards infinity; `direction` leads away from `from`.
@@ -57,8 +58,8 @@ public:
     RTCScene embree_scene() const { return scene_; }
     const RayTracer& tracer() const { return tracer_; }
 
-    /// Shadow rays end at this share of the way to a light, so that the surface which the light lies on is not hit.
-    static constexpr float shadow_ray_end = 1.0f - 1e-4f;
+    /// Shadow rays end at this share of the way: a ray's own rounding may not carry it beyond its end.
+    static constexpr float shadow_ray_end = 1.0f - 0x1p-23f;
 
 private:
     struct Ray;

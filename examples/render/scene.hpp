@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -154,9 +155,10 @@ struct Scene {
     Lighting lighting;
     Background background;
 
-    std::size_t dropped_triangles = 0;  ///< of zero area, left out when the scene was checked
-    std::size_t dropped_lights = 0;     ///< of zero intensity, left out likewise
-    std::vector<LeftOut> left_out;      ///< of what the files carry
+    std::size_t dropped_triangles = 0;         ///< of zero area, left out when the scene was checked
+    std::size_t dropped_lights = 0;            ///< of zero intensity, left out likewise
+    LeftOutList left_out;                      ///< of what the files carry
+    std::vector<std::filesystem::path> files;  ///< from which it was read
 
     /// Those that are added up at a point, of all kinds: spheres count by their points.
     std::size_t light_count() const {

@@ -21,7 +21,9 @@ class SceneLights {
 public:
     using DirectForest = ForestWith<>;
     using Forest = ForestWith<lightcuts::VirtualLight<>>;
+    static constexpr std::uint32_t oriented_kind = 1;
     static constexpr std::uint32_t sphere_kind = 4;
+    static constexpr std::uint32_t virtual_kind = 5;
 
     /// `scene` must outlive this object. throws: lightcuts::invalid_input for a light that cannot be used.
     SceneLights(const Scene& scene, const Options& options);

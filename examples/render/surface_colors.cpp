@@ -47,15 +47,8 @@ struct Spot {
         return glm::vec4(m.base_color, m.base_alpha) * texel * vertex_color();
     }
 
-    float cover() const { return material().alpha == Material::Alpha::opaque ? 1.0f : cover_of(material(), base().a); }
-
-    static float cover_of(const Material& material, float alpha) {
-        switch (material.alpha) {
-            case Material::Alpha::opaque: return 1.0f;
-            case Material::Alpha::mask: return alpha >= material.alpha_cutoff ? 1.0f : 0.0f;
-            case Material::Alpha::blend: return glm::clamp(alpha, 0.0f, 1.0f);
-        }
-        return 1.0f;
+    float cover() const {
+        return material().alpha == Material::Alpha::opaque ? 1.0f : cover_of_alpha(material(), base().a);
     }
 };
 
@@ -99,6 +92,15 @@ void set_microfacet_reflectance(const Spot& spot, SurfaceColors& colors) {
 
 }  // namespace
 
+float cover_of_alpha(const Material& material, float alpha) {
+    switch (material.alpha) {
+        case Material::Alpha::opaque: return 1.0f;
+        case Material::Alpha::mask: return alpha >= material.alpha_cutoff ? 1.0f : 0.0f;
+        case Material::Alpha::blend: return glm::clamp(alpha, 0.0f, 1.0f);
+    }
+    return 1.0f;
+}
+
 glm::vec4 texel_at(const Scene& scene, const TextureUse& use, std::uint32_t triangle, float u, float v) {
     return Spot{scene, triangle, u, v}.texel(use);
 }
@@ -109,7 +111,7 @@ SurfaceColors colors_at(const Scene& scene, std::uint32_t triangle, float u, flo
     const glm::vec4 base = spot.base();
     SurfaceColors colors;
     colors.base = glm::vec3(base);
-    colors.cover = Spot::cover_of(material, base.a);
+    colors.cover = cover_of_alpha(material, base.a);
     switch (material.model) {
         case Material::Model::microfacet: {
             const glm::vec4 metal_rough = spot.texel(material.metallic_roughness_texture);
@@ -123,7 +125,7 @@ SurfaceColors colors_at(const Scene& scene, std::uint32_t triangle, float u, flo
             colors.specular = material.specular * glm::vec3(texel);
             colors.roughness = 1.0f - (1.0f - material.roughness) * texel.a;
             // What is reflected at the surface does not get below it.
-            colors.base *= 1.0f - std::max({colors.specular.r, colors.specular.g, colors.specular.b});
+            colors.base *= std::max(1.0f - std::max({colors.specular.r, colors.specular.g, colors.specular.b}), 0.0f);
             break;
         }
         case Material::Model::phong:
@@ -167,7 +169,7 @@ glm::vec3 tint_at(const Scene& scene, std::uint32_t triangle, float u, float v) 
     const Spot spot{scene, triangle, u, v};
     const Material& material = spot.material();
     const glm::vec4 base = spot.base();
-    const float cover = Spot::cover_of(material, base.a);
+    const float cover = cover_of_alpha(material, base.a);
     glm::vec3 passed(1.0f - cover);
     if (material.transmission > 0.0f) {
         const float metallic = material.metallic * spot.texel(material.metallic_roughness_texture).b;
@@ -186,7 +188,7 @@ std::vector<bool> transmissive_materials(const Scene& scene) {
             const TextureUse& use = material.alpha_texture.is_there() ? material.alpha_texture
                                                                       : material.base_color_texture;
             const float alpha = material.base_alpha * smallest_texture_alpha(scene, use) * vertex_alpha;
-            passes[i] = Spot::cover_of(material, alpha) < 1.0f;
+            passes[i] = cover_of_alpha(material, alpha) < 1.0f;
         }
     }
     return passes;

@@ -38,6 +38,9 @@ glm::vec3 emitted_radiance(const Scene& scene, std::uint32_t triangle, float u, 
 /// True iff `emitted_radiance` varies over triangles of `material`.
 bool has_varying_emission(const Scene& scene, const Material& material);
 
+/// The share of a surface of `material` that is there where its alpha is `alpha`; it does not fall as that grows.
+float cover_of_alpha(const Material& material, float alpha);
+
 /// `colors_at(...).cover` alone.
 float cover_at(const Scene& scene, std::uint32_t triangle, float u, float v);
 

@@ -6,16 +6,11 @@
 #include <glm/geometric.hpp>
 
 #include "surface_colors.hpp"
+#include "triangle.hpp"
 
 namespace render {
 
 namespace {
-
-/// Distance of a ray's origin from its surface, as a share of the largest coordinate that the surface is computed from
-/// there: some thirty roundings of one.
-constexpr float offset_per_coordinate = 4e-6f;
-
-double largest(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
 glm::vec3 mirrored(const glm::vec3& direction, const glm::vec3& normal) {
     return direction - 2.0f * glm::dot(direction, normal) * normal;
@@ -28,21 +23,6 @@ glm::vec3 bend_to_viewer(const glm::vec3& normal, const glm::vec3& to_viewer) {
     if (cosine >= smallest_cosine) return normal;
     return glm::normalize(normal + (smallest_cosine - cosine) * to_viewer);
 }
-
-/// A triangle in doubles.
-struct Face {
-    glm::dvec3 a, b, c;
-
-    Face(const Scene& scene, const glm::uvec3& t)
-        : a(scene.positions[t.x]), b(scene.positions[t.y]), c(scene.positions[t.z]) {}
-
-    glm::dvec3 at(double u, double v) const { return (1.0 - u - v) * a + u * b + v * c; }
-
-    /// What a float rounds of a point here, and an intersection of the triangle's extent.
-    double size_at(const glm::dvec3& p) const {
-        return std::max({largest(p), largest(a - p), largest(b - p), largest(c - p)});
-    }
-};
 
 /// The interpolated vertex normal, on the side of `face`; that itself where there is none.
 glm::vec3 smooth_normal(const Scene& scene, const Hit& hit, const glm::vec3& face) {
@@ -60,8 +40,8 @@ glm::vec3 smooth_normal(const Scene& scene, const Hit& hit, const glm::vec3& fac
 
 /// In which direction u grows on the surface, and v upwards: of the vertices' tangents, or else of the triangle's uvs.
 /// False if neither says it.
-bool find_tangents(const Scene& scene, const Hit& hit, const Face& face, const TextureUse& use, const glm::vec3& normal,
-                   glm::vec3& along_u, glm::vec3& up_v) {
+bool find_tangents(const Scene& scene, const Hit& hit, const Triangle& face, const TextureUse& use,
+                   const glm::vec3& normal, glm::vec3& along_u, glm::vec3& up_v) {
     const glm::uvec3 t = scene.triangles[hit.triangle];
     glm::vec3 tangent(0.0f);
     float side = 1.0f;
@@ -92,7 +72,7 @@ bool find_tangents(const Scene& scene, const Hit& hit, const Face& face, const T
 }
 
 /// `normal` bent by the material's normal map.
-glm::vec3 mapped_normal(const Scene& scene, const Hit& hit, const Face& face, const Material& material,
+glm::vec3 mapped_normal(const Scene& scene, const Hit& hit, const Triangle& face, const Material& material,
                         const glm::vec3& normal) {
     glm::vec3 along_u(0.0f);
     glm::vec3 up_v(0.0f);
@@ -117,13 +97,13 @@ glm::vec3 SurfaceGeometry::reflect(const glm::vec3& direction) const {
 }
 
 SurfaceGeometry surface_at(const Scene& scene, const Hit& hit, const glm::vec3& direction) {
-    const Face face(scene, scene.triangles[hit.triangle]);
+    const Triangle face(scene, hit.triangle);
     const glm::dvec3 position = face.at(static_cast<double>(hit.u), static_cast<double>(hit.v));
 
     SurfaceGeometry s;
     s.position = glm::vec3(position);
-    s.offset = offset_per_coordinate * static_cast<float>(face.size_at(position));
-    const glm::dvec3 cross = glm::cross(face.b - face.a, face.c - face.a);
+    s.offset = ray_offset(face, position);
+    const glm::dvec3 cross = face.cross();
     const double length = glm::length(cross);
     const glm::vec3 normal = length > 0.0 ? glm::vec3(cross / length) : -direction;
     s.front = glm::dot(normal, direction) <= 0.0f;

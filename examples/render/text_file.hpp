@@ -25,6 +25,9 @@ std::optional<double> parse_number(std::string_view text);
 /// `text` without spaces, tabs and carriage returns at its ends.
 std::string_view trim(std::string_view text);
 
+/// `text` with A to Z made small.
+std::string in_lower_case(std::string_view text);
+
 /// The parts of `text` between spaces and tabs.
 std::vector<std::string_view> split_words(std::string_view text);
 

@@ -37,8 +37,8 @@ float reduced(float u, Texture::Wrap wrap) {
     return wrap == Texture::Wrap::mirror ? u - 2.0f * std::floor(0.5f * u) : u - std::floor(u);
 }
 
-/// A texture of linear colours. Those of OpenEXR are premultiplied by alpha.
-Texture texture_of_picture(const Picture& picture, const std::string& name) {
+/// A texture of linear colours.
+Texture texture_of_picture(const Picture& picture, const std::string& name, Premultiplication premultiplication) {
     const Picture::Channel* alpha = picture.find("A");
     Texture texture;
     texture.name = name;
@@ -47,7 +47,8 @@ Texture texture_of_picture(const Picture& picture, const std::string& name) {
     texture.texels.reserve(picture.size());
     for (std::size_t i = 0; i < picture.size(); ++i) {
         const float a = alpha ? alpha->values[i] : 1.0f;
-        const glm::vec3 color = a > 0.0f && a < 1.0f ? picture.pixels[i] / a : picture.pixels[i];
+        const bool undo = premultiplication == Premultiplication::undo && a > 0.0f && a < 1.0f;
+        const glm::vec3 color = undo ? picture.pixels[i] / a : picture.pixels[i];
         const glm::vec4 texel(color, a);
         for (int c = 0; c < 4; ++c) {
             if (std::isfinite(texel[c]) && texel[c] >= 0.0f) continue;
@@ -202,9 +203,14 @@ Texture make_texture(std::string name, const EncodedImage& image, bool srgb) {
     return texture;
 }
 
-Texture texture_of_bytes(std::string_view bytes, const std::string& name, bool srgb) {
-    if (begins_as_radiance(bytes)) return texture_of_picture(radiance_picture(bytes, name), name);
-    if (begins_as_openexr(bytes)) return texture_of_picture(exr_picture(bytes, name, ExrUse::texture), name);
+Texture texture_of_bytes(std::string_view bytes, const std::string& name, bool srgb,
+                         Premultiplication premultiplication) {
+    if (begins_as_radiance(bytes)) {
+        return texture_of_picture(radiance_picture(bytes, name), name, premultiplication);
+    }
+    if (begins_as_openexr(bytes)) {
+        return texture_of_picture(exr_picture(bytes, name, ExrUse::texture), name, premultiplication);
+    }
     return decoded_texture(bytes, name, srgb);
 }
 

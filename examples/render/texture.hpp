@@ -27,11 +27,16 @@ struct EncodedImage {
 /// throws: invalid_input naming `name` when the pixels are missing or of an unknown layout.
 Texture make_texture(std::string name, const EncodedImage& image, bool srgb);
 
+/// What becomes of colours that a picture holds times its alpha, as OpenEXR does. A surface's are multiplied by its
+/// cover when they are seen; emitted radiance is stored as it is seen.
+enum class Premultiplication { undo, keep };
+
 /// A texture of a picture's file, by what it holds: PNG (8 or 16 bits a channel), JPEG, TGA, BMP; Radiance and OpenEXR,
 /// whose colours are linear, of any brightness, and never sRGB-encoded. `name`: for messages, and the texture's.
 /// throws: invalid_input, one line: of another kind, damaged, cut short, too large, or with the first pixel that is
 /// negative or not finite.
-Texture texture_of_bytes(std::string_view bytes, const std::string& name, bool srgb);
+Texture texture_of_bytes(std::string_view bytes, const std::string& name, bool srgb,
+                         Premultiplication premultiplication = Premultiplication::undo);
 
 /// `texture_of_bytes` of a file, whose name without folders is the texture's. throws: invalid_input.
 Texture read_texture(const std::filesystem::path& path, bool srgb);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 #include <sstream>
 #include <string_view>
 #include <vector>
@@ -11,6 +13,8 @@
 #include <glm/vec3.hpp>
 #include <lightcuts/core/invalid_input.hpp>
 #include <lightcuts/core/vector.hpp>
+
+#include "reflectance.hpp"
 
 namespace render {
 namespace {
@@ -27,6 +31,12 @@ std::string text(const glm::vec3& v) { return "(" + text(v.x) + ", " + text(v.y)
 
 bool is_finite_and_not_negative(const glm::vec3& v) {
     return is_finite(v) && v.x >= 0.0f && v.y >= 0.0f && v.z >= 0.0f;
+}
+
+/// Along a triangle's normal, twice its area long.
+glm::dvec3 cross_of(const Scene& scene, glm::uvec3 corner) {
+    const glm::dvec3 a(scene.positions[corner.x]);
+    return glm::cross(glm::dvec3(scene.positions[corner.y]) - a, glm::dvec3(scene.positions[corner.z]) - a);
 }
 
 /// Throws messages that begin with the scene's name.
@@ -140,6 +150,74 @@ struct Checker {
         }
     }
 
+    /// Where a texture looks must be a number, with room for what interpolation adds.
+    void texture_places() const {
+        constexpr double most = static_cast<double>(std::numeric_limits<float>::max()) / 4.0;
+        const auto reach = [](const UvTransform& t, const glm::dvec2& uv) {
+            const glm::dvec2 sum = glm::abs(glm::dvec2(t.offset)) + std::abs(uv.x) * glm::abs(glm::dvec2(t.u_axis)) +
+                                   std::abs(uv.y) * glm::abs(glm::dvec2(t.v_axis));
+            return std::max(sum.x, sum.y);
+        };
+        std::vector<glm::dvec2> farthest;  // of each set
+        for (const auto& uvs : scene.uv_sets) {
+            glm::vec2 end(0.0f);
+            for (const glm::vec2& uv : uvs) end = glm::max(end, glm::abs(uv));
+            farthest.emplace_back(end);
+        }
+        const auto goes_too_far = [&](const TextureUse* use) {
+            return use->is_there() && use->uv_set < farthest.size() && reach(use->uv, farthest[use->uv_set]) > most;
+        };
+        std::vector<bool> suspect(scene.materials.size());
+        for (std::size_t i = 0; i < suspect.size(); ++i) {
+            const auto uses = textures_of(scene.materials[i]);
+            suspect[i] = std::any_of(uses.begin(), uses.end(), goes_too_far);
+        }
+        if (std::find(suspect.begin(), suspect.end(), true) == suspect.end()) return;
+        for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
+            if (!suspect[scene.triangle_material[t]]) continue;
+            const Material& m = scene.materials[scene.triangle_material[t]];
+            for (const TextureUse* use : textures_of(m)) {
+                if (!goes_too_far(use)) continue;
+                for (int c = 0; c < 3; ++c) {
+                    const std::uint32_t v = scene.triangles[t][c];
+                    if (reach(use->uv, glm::dvec2(scene.uv_sets[use->uv_set][v])) <= most) continue;
+                    fail("the uv of vertex " + std::to_string(v) + ", as the texture transform of material '" + m.name +
+                         "' moves it, is too large; correct either");
+                }
+            }
+        }
+    }
+
+    /// Power and intensity of what shines must be numbers.
+    void emitters() const {
+        if (std::none_of(scene.materials.begin(), scene.materials.end(),
+                         [](const Material& m) { return m.emission != glm::vec3(0.0f); })) {
+            return;
+        }
+        std::vector<double> areas(scene.materials.size());
+        for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
+            const std::uint32_t material = scene.triangle_material[t];
+            if (scene.materials[material].emission == glm::vec3(0.0f)) continue;
+            areas[material] += 0.5 * glm::length(cross_of(scene, scene.triangles[t]));
+        }
+        for (std::size_t i = 0; i < areas.size(); ++i) {
+            const Material& m = scene.materials[i];
+            if (areas[i] == 0.0) continue;
+            glm::vec3 brightest(1.0f);
+            if (m.emission_texture.is_there()) {
+                for (const glm::vec4& t : scene.textures[static_cast<std::size_t>(m.emission_texture.texture)].texels) {
+                    brightest = glm::max(brightest, glm::vec3(t));
+                }
+            }
+            const glm::dvec3 radiance = glm::dvec3(m.emission) * glm::dvec3(brightest);
+            const double power = 2.0 * std::numbers::pi * areas[i] * std::max({radiance.x, radiance.y, radiance.z});
+            if (power > static_cast<double>(std::numeric_limits<float>::max())) {
+                fail("material " + std::to_string(i) + " '" + m.name +
+                     "': the light of its surfaces is more than a float can hold; correct its emission");
+            }
+        }
+    }
+
     template <class L>
     void lights(const std::vector<L>& all, const char* kind) const {
         for (std::size_t i = 0; i < all.size(); ++i) {
@@ -179,12 +257,7 @@ struct Checker {
 };
 
 /// Exactly collinear in doubles: such a triangle has no normal, cannot be hit and emits nothing.
-bool has_area(const Scene& scene, glm::uvec3 corner) {
-    const glm::dvec3 a(scene.positions[corner.x]);
-    const glm::dvec3 cross = glm::cross(glm::dvec3(scene.positions[corner.y]) - a,
-                                        glm::dvec3(scene.positions[corner.z]) - a);
-    return cross != glm::dvec3(0.0);
-}
+bool has_area(const Scene& scene, glm::uvec3 corner) { return cross_of(scene, corner) != glm::dvec3(0.0); }
 
 void drop_flat_triangles(Scene& scene) {
     std::size_t kept = 0;
@@ -199,28 +272,17 @@ void drop_flat_triangles(Scene& scene) {
     scene.triangle_material.resize(kept);
 }
 
-/// A surface reflects no more than it gets: what is above is cut off, and named.
 void clip_reflectances(Scene& scene) {
-    const glm::vec3 one(1.0f);
-    const std::string why = "a surface reflects no more than it gets";
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         Material& m = scene.materials[i];
         for (glm::vec3* color : {&m.base_color, &m.specular, &m.diffuse_transmission_color}) {
-            if (glm::max(*color, one) == one) continue;
-            leave_out(scene.left_out,
-                      "what is above 1 of a colour " + text(*color) + " of material " + std::to_string(i) + " '" +
-                          m.name + "'",
-                      why);
-            *color = glm::min(*color, one);
+            if (is_reflectance(*color)) continue;
+            clip_reflectance(*color,
+                             "a colour " + text(*color) + " of material " + std::to_string(i) + " '" + m.name + "'",
+                             scene.left_out);
         }
     }
-    for (std::size_t i = 0; i < scene.colors.size(); ++i) {
-        if (glm::max(scene.colors[i], glm::vec4(1.0f)) == glm::vec4(1.0f)) continue;
-        leave_out(scene.left_out, "what is above 1 of vertex colours, such as that of vertex " + std::to_string(i),
-                  why);
-        for (glm::vec4& color : scene.colors) color = glm::min(color, glm::vec4(1.0f));
-        break;
-    }
+    clip_reflectance(scene.colors, scene.left_out);
 }
 
 template <class L>
@@ -235,6 +297,8 @@ void validate(Scene& scene) {
     check.sizes();
     check.vertices();
     check.materials();
+    check.texture_places();
+    check.emitters();
     check.lights(scene.omni, "omni");
     check.lights(scene.oriented, "oriented");
     check.lights(scene.spots, "spot");

@@ -317,4 +317,24 @@ TEST(EmitterLights, OfFewLampsAreAsManyAsWanted) {
     EXPECT_EQ(s.oriented.size(), 256'000u);
 }
 
+TEST(EmitterLights, OfTwoSidesAreAsDenseAsOfOne) {
+    // By a budget, a side of a double-sided lamp gets as many lights as a like lamp of one side.
+    Scene s = many_lamps(200);
+    s.materials.push_back(s.materials[0]);
+    s.materials[1].double_sided = true;
+    for (std::size_t t = 0; t < s.triangles.size(); ++t) s.triangle_material[t] = t / 2 % 4 < 2 ? 0 : 1;
+    add_emitter_lights(s, {.points = 64, .total = 1000});
+    std::vector<std::size_t> up(200);
+    std::vector<std::size_t> down(200);
+    for (const auto& light : s.oriented) {
+        ++(light.axis.z > 0.0f ? up : down)[static_cast<std::size_t>(light.position.x / 3.0f)];
+    }
+    for (std::size_t i = 0; i < 200; ++i) {
+        EXPECT_EQ(up[i], up[i % 10 == 0 ? 0 : 1]) << i;
+        EXPECT_EQ(down[i], i % 4 < 2 ? 0 : up[i]) << i;
+    }
+    EXPECT_GT(up[0], 10u);
+    EXPECT_LT(up[0], 64u);
+}
+
 }  // namespace

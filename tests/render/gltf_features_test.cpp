@@ -159,6 +159,123 @@ TEST(GltfSkin, RefusesJointsAndWeightsThatAreNotThere) {
     EXPECT_THAT(refusal([&] { file.load(); }), HasSubstr("inverseBindMatrices"));
 }
 
+TEST(GltfSkin, AsksNothingOfWhatNoTriangleOrSkinUses) {
+    // A fifth vertex that no triangle has, without a weight, of a joint that does not exist.
+    GltfBuilder file;
+    const Json attributes = {
+        {"POSITION", file.add(std::vector<float>{-1, 0, 1, 0, 0, 1, 0, 0, -1, -1, 0, -1, 0, 0, 0}, "VEC3", 3)},
+        {"JOINTS_0",
+         file.add(std::vector<std::uint8_t>{0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 9, 9, 9, 9}, "VEC4", 4)},
+        {"WEIGHTS_0",
+         file.add(std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0}, "VEC4", 4)}};
+    const auto mesh_of = [&](const std::vector<std::uint8_t>& indices) {
+        return file.add_mesh(attributes, {{"indices", file.add(indices, "SCALAR", 1)}});
+    };
+    file.append("skins", {{"joints", {0}}});
+    file.add_node({{"translation", {1, 0, 0}}});
+    file.add_node({{"mesh", mesh_of({0, 1, 2, 0, 2, 3})}, {"skin", 0}});
+    EXPECT_TRUE(look_down(file.load(), 0.5f, 0.0f).is_there);
+    file.json["nodes"][1]["mesh"] = mesh_of({0, 1, 4});
+    EXPECT_THAT(refusal([&] { file.load(); }), HasSubstr("a vertex that no joint moves"));
+    // Without a skin, joints mean nothing.
+    for (const char* gone : {"WEIGHTS_0", "JOINTS_0"}) {
+        GltfBuilder bare = skinned(Json::object(), Json::object());
+        bare.json["meshes"][0]["primitives"][0]["attributes"].erase(gone);
+        bare.json["nodes"][1].erase("skin");
+        EXPECT_TRUE(look_down(bare.load(), -0.5f, 0.0f).is_there) << gone;
+    }
+    GltfBuilder lost = skinned(Json::object(), Json::object());
+    lost.json["meshes"][0]["primitives"][0]["attributes"].erase("WEIGHTS_0");
+    EXPECT_THAT(refusal([&] { lost.load(); }), HasSubstr("joints without weights"));
+}
+
+TEST(GltfAccessors, HoldFiniteNumbers) {
+    constexpr float nan = std::numeric_limits<float>::quiet_NaN(), infinite = std::numeric_limits<float>::infinity();
+    for (const float bad : {nan, infinite, -infinite}) {
+        SCOPED_TRACE(bad);
+        const auto refused = [](const GltfBuilder& file) { return refusal([&] { file.load(); }); };
+        // Where an instance stands.
+        for (const auto& [name, good] : {std::pair{"ROTATION", std::vector<float>{0, 0, 0, 1}},
+                                         {"TRANSLATION", {0, 0, 0}},
+                                         {"SCALE", {1, 1, 1}}}) {
+            std::vector<float> values = good;
+            values[1] = bad;
+            GltfBuilder file;
+            const Json attributes = {{name, file.add(values, values.size() == 4 ? "VEC4" : "VEC3", values.size())}};
+            file.add_node({{"mesh", file.add_mesh(file.square())},
+                           {"extensions", {{"EXT_mesh_gpu_instancing", {{"attributes", attributes}}}}}});
+            EXPECT_THAT(refused(file), testing::AllOf(HasSubstr(name), HasSubstr("element 0 is not finite")));
+        }
+        // What an animation begins with; what comes later is not looked at.
+        for (const bool first : {true, false}) {
+            for (const auto& [path, size] : {std::pair{"rotation", std::size_t(4)}, {"translation", 3}, {"scale", 3}}) {
+                std::vector<float> values(2 * size, 1.0f);
+                values[first ? 1 : size] = bad;
+                GltfBuilder file;
+                file.add_node({{"mesh", file.add_mesh(file.square())}});
+                const std::size_t input = file.add(std::vector<float>{0, 1}, "SCALAR", 1);
+                const std::size_t output = file.add(values, size == 4 ? "VEC4" : "VEC3", size);
+                file.append("animations",
+                            {{"samplers", Json::array({{{"input", input}, {"output", output}}})},
+                             {"channels", Json::array({{{"sampler", 0}, {"target", {{"node", 0}, {"path", path}}}}})}});
+                if (first) {
+                    EXPECT_THAT(refused(file), HasSubstr("is not finite")) << path;
+                } else {
+                    EXPECT_EQ(file.load().triangles.size(), 2u) << path;
+                }
+            }
+        }
+        // Attributes of vertices, and what moves them.
+        for (const char* name : {"POSITION", "NORMAL", "COLOR_0"}) {
+            GltfBuilder file;
+            Json attributes = file.square();
+            std::vector<float> values{0, 0, 1, 1, 0, 1, 1, 0, 0.5f, 0, 0, 0.5f};
+            values[7] = bad;
+            attributes[name] = file.add(values, "VEC3", 3);
+            file.add_node({{"mesh", file.add_mesh(attributes)}});
+            EXPECT_THAT(refused(file), testing::AllOf(HasSubstr(name), HasSubstr("vertex 2 is not finite")));
+        }
+        GltfBuilder file = skinned(Json::object(), Json::object());
+        std::vector<float> matrix{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+        matrix[5] = bad;
+        file.json["skins"][0]["inverseBindMatrices"] = file.add(matrix, "MAT4", 16);
+        EXPECT_THAT(refused(file), HasSubstr("element 0 is not finite"));
+    }
+}
+
+TEST(GltfAnimation, OfAnUnknownPathIsNamed) {
+    GltfBuilder file;
+    file.add_node({{"mesh", file.add_mesh(file.square())}});
+    const std::size_t time = file.add(std::vector<float>{0, 1}, "SCALAR", 1);
+    file.append("animations",
+                {{"samplers", Json::array({{{"input", time}, {"output", time}}})},
+                 {"channels", Json::array({{{"sampler", 0}, {"target", {{"node", 0}, {"path", "hue"}}}}})}});
+    EXPECT_TRUE(leaves_out(file.load(), "an animation of 'hue'"));
+    file.json["animations"][0]["channels"][0]["target"]["path"] = "rotation";
+    EXPECT_THAT(refusal([&] { file.load(); }), HasSubstr("one rotation for each key"));
+}
+
+TEST(GltfScenes, ThatAreNotShownAreNamed) {
+    GltfBuilder file;
+    const std::size_t mesh = file.add_mesh(file.square());
+    file.add_node({{"mesh", mesh}});
+    EXPECT_TRUE(file.load().left_out.empty());
+    file.append("nodes", {{"mesh", mesh}, {"name", "attic"}});
+    file.append("nodes", {{"name", "nothing to see"}});
+    file.append("nodes", {{"mesh", mesh}, {"name", "cellar"}});
+    file.append("scenes", {{"name", "below"}, {"nodes", {3}}});
+    file.append("scenes", Json::object());
+    const Scene s = file.load();
+    EXPECT_EQ(s.triangles.size(), 2u);
+    ASSERT_EQ(s.left_out.size(), 3u);
+    EXPECT_EQ(s.left_out[0].what, "scene 'below'");
+    EXPECT_EQ(s.left_out[1].what, "scene 2");
+    EXPECT_EQ(s.left_out[2].what, "node 'attic'");
+    // Of the other scene the first is left out, and said to be.
+    file.json["scene"] = 1;
+    EXPECT_TRUE(leaves_out(file.load(), "scene 0"));
+}
+
 GltfBuilder morphing(const Json& mesh_weights, const Json& node_weights) {
     GltfBuilder file;
     const Json target = {{"POSITION", file.add(std::vector<float>{1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0}, "VEC3", 3)}};
@@ -525,6 +642,17 @@ TEST(GltfLight, IgnoresScales) {
     ASSERT_EQ(s.omni.size(), 1u);
     expect_near(s.omni[0].position, {1, 2, 3});
     EXPECT_TRUE(leaves_out(s, "extras"));
+}
+
+TEST(GltfLight, IsNoBrighterThanAFloatHolds) {
+    GltfBuilder file;
+    file.add_node({{"mesh", file.add_mesh(file.square())}});
+    file.json["extensions"]["KHR_lights_punctual"]["lights"] = Json::array(
+        {{{"type", "point"}, {"name", "flare"}, {"intensity", 3e38}, {"color", {1, 2, 1}}}});
+    file.add_node({{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+    EXPECT_THAT(refusal([&] { file.load(); }), HasSubstr("light 'flare': its intensity times its color is too large"));
+    file.json["extensions"]["KHR_lights_punctual"]["lights"][0]["color"] = {1, 1, 1};
+    EXPECT_EQ(file.load().omni.at(0).intensity, glm::vec3(3e38f));
 }
 
 TEST(GltfNodes, AreATree) {

@@ -111,7 +111,8 @@ TEST_F(ObjFile, MapsOfOpacity) {
 
     EXPECT_EQ(s.materials[2].alpha, Material::Alpha::opaque) << "a mask without holes";
     folder.write("m.mtl", "newmtl a\nmap_d gone.png\n");
-    EXPECT_THAT(refused("mtllib m.mtl\n" + std::string(square) + "usemtl a\nf 1 2 3\n"), StartsWith("gone.png: "));
+    EXPECT_THAT(refused("mtllib m.mtl\n" + std::string(square) + "usemtl a\nf 1 2 3\n"),
+                testing::AllOf(StartsWith("m.mtl:2: "), HasSubstr("/gone.png: ")));
 }
 
 TEST_F(ObjFile, ErrorsNameTheLine) {
@@ -126,16 +127,18 @@ TEST_F(ObjFile, ErrorsNameTheLine) {
     EXPECT_THAT(refused(std::string(square) + "f 1 2 0\n"), StartsWith("scene.obj:5: '0'"));
     EXPECT_THAT(refused(std::string(square) + "f 1/1 2/1 3/1\n"), HasSubstr("scene.obj:5: uv 1"));
     EXPECT_THAT(refused(std::string(square) + "f 1//1 2//1 3//1\n"), HasSubstr("scene.obj:5: normal 1"));
-    EXPECT_THAT(refused("mtllib gone.mtl\n" + std::string(square) + "f 1 2 3\n"), StartsWith("scene.obj:1: "));
+    EXPECT_THAT(refused("mtllib gone.mtl\n" + std::string(square) + "usemtl a\nf 1 2 3\n"),
+                StartsWith("scene.obj:1: "));
     folder.write("m.mtl", "newmtl a\nKd 0.1 -0.2 0.3\n");
-    EXPECT_THAT(refused("mtllib m.mtl\n" + std::string(square) + "f 1 2 3\n"), StartsWith("m.mtl:2: '-0.2'"));
+    EXPECT_THAT(refused("mtllib m.mtl\n" + std::string(square) + "usemtl a\nf 1 2 3\n"), StartsWith("m.mtl:2: '-0.2'"));
     folder.write("m.mtl", "newmtl a\nKe 1 nan 1\n");
-    EXPECT_THAT(refused("mtllib m.mtl\n" + std::string(square) + "f 1 2 3\n"), StartsWith("m.mtl:2: 'nan'"));
+    EXPECT_THAT(refused("mtllib m.mtl\n" + std::string(square) + "usemtl a\nf 1 2 3\n"), StartsWith("m.mtl:2: 'nan'"));
     folder.write("m.mtl", "newmtl a\nKd 1 1 1\n");
     EXPECT_THAT(refused("mtllib m.mtl\n" + std::string(square) + "usemtl b\nf 1 2 3\n"),
                 StartsWith("scene.obj:6: the material 'b'"));
     folder.write("m.mtl", "newmtl a\nKd 1 1 1\nmap_Kd gone.png\n");
-    EXPECT_THAT(refused("mtllib m.mtl\n" + std::string(square) + "usemtl a\nf 1 2 3\n"), StartsWith("gone.png: "));
+    EXPECT_THAT(refused("mtllib m.mtl\n" + std::string(square) + "usemtl a\nf 1 2 3\n"),
+                testing::AllOf(StartsWith("m.mtl:3: "), HasSubstr("/gone.png: ")));
     EXPECT_THAT(refused(""), HasSubstr("no triangles"));
     EXPECT_THAT(refused("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n"), HasSubstr("zero area"));
 }
@@ -223,7 +226,25 @@ TEST_F(ObjFile, LibrariesAreFoundAsTheyAreWritten) {
     ASSERT_EQ(s.left_out.size(), 1u);
     EXPECT_THAT(s.left_out[0].what, HasSubstr("lost.mat"));
     std::filesystem::remove(folder.path() / "scene.mtl");
-    EXPECT_THAT(refused("mtllib plain.mtl lost.mtl\n" + body), StartsWith("scene.obj:1: the material library "));
+    // What is there is used, and a name is missing only if something has it.
+    for (const char* lines : {"mtllib plain.mtl lost.mtl", "mtllib lost.mtl plain.mtl", "mtllib a lost.mtl plain.mtl",
+                              "mtllib lost.mtl\nmtllib plain.mtl", "mtllib plain.mtl\nmtllib lost.mtl"}) {
+        SCOPED_TRACE(lines);
+        const Scene part = load(lines + ("\n" + body));
+        expect_red_and_green(part);
+        ASSERT_EQ(part.left_out.size(), 1u);
+        EXPECT_THAT(part.left_out[0].what, HasSubstr("lost.mtl"));
+        EXPECT_EQ(part.left_out[0].why, "it is not there");
+    }
+    EXPECT_THAT(refused("mtllib green.mtl lost.mtl\n" + body),
+                StartsWith("scene.obj:1: the material library 'lost.mtl' is not there, and no other has the material "
+                           "'red'"));
+    EXPECT_EQ(load("mtllib lost.mtl\n" + std::string(square) + "f 1 2 3\n").materials[0].base_color, glm::vec3(0.8f));
+    // The file's own name comes last: it does not hide what was found.
+    folder.write("scene.mtl", "newmtl red\nKd 0 0 1\nnewmtl green\nKd 0.1 0.8 0.1\n");
+    expect_red_and_green(load("mtllib plain.mtl lost.mtl\n" + body));
+    expect_red_and_green(load("mtllib only red.mtl lost.mtl\n" + body));
+    std::filesystem::remove(folder.path() / "scene.mtl");
     EXPECT_THAT(refused("v 0 0 0\nmtllib lost one.mtl\n" + body), StartsWith("scene.obj:2: "));
     EXPECT_THAT(refused("mtllib\n" + body), StartsWith("scene.obj:1: 'mtllib' names no file"));
 }
@@ -252,7 +273,7 @@ TEST_F(ObjFile, LinesEndInAnyWay) {
     EXPECT_THAT(refused("v 0 0 0\r\nv 1 0 0\r\nv nan 1 0\r\n"), StartsWith("scene.obj:3: 'nan'"));
     EXPECT_THAT(refused("v 0 0 0\rv 1 0 0\rv nan 1 0\r"), StartsWith("scene.obj:3: 'nan'"));
     folder.write("m.mtl", "newmtl a\n# x\rKe nan 1 1\n");
-    EXPECT_THAT(refused("mtllib m.mtl\n" + std::string(square) + "f 1 2 3\n"), StartsWith("m.mtl:3: 'nan'"));
+    EXPECT_THAT(refused("mtllib m.mtl\n" + std::string(square) + "usemtl a\nf 1 2 3\n"), StartsWith("m.mtl:3: 'nan'"));
     EXPECT_THAT(refused("\xFF\xFEv\0 "), HasSubstr("UTF-16"));
 }
 
@@ -286,10 +307,12 @@ TEST_F(ObjFile, AcceptsWhatTheFormatAllows) {
     }
     const Scene numbers = load("v -1.0E+00 0. 1.e0 2\nv +1 0 1 # first\nv .1e1 -0 -1\nv 1e-400 0 0\nf 1 2 3\n");
     EXPECT_EQ(numbers.positions[0], glm::vec3(-1, 0, 1));
-    const Scene rest = load(std::string(square) + "p 1\nl 1 2\ncstype bezier\nsurf 0 1\nend\nfoo 1\nbar 2\nf 1 2 3\n");
+    const Scene rest = load(std::string(square) +
+                            "p 1\nl 1 2\ncstype bezier\nsurf 0 1\nend\nfoo 1\nbar 2\nfoo 3\nf 1 2 3\n");
     EXPECT_EQ(rest.triangles.size(), 1u);
-    ASSERT_EQ(rest.left_out.size(), 3u);
+    ASSERT_EQ(rest.left_out.size(), 4u) << "each unknown keyword once";
     EXPECT_THAT(rest.left_out[2].what, HasSubstr("'foo' in line 10"));
+    EXPECT_THAT(rest.left_out[3].what, HasSubstr("'bar' in line 11"));
 }
 
 TEST_F(ObjFile, RefusesWhatItDoesNotAllow) {
@@ -476,6 +499,36 @@ TEST_F(ObjFile, StandsWhereItIsFarAway) {
     const Scene coarse = load(file(4e6) + "v 0 0 0\nv 1e7 0 0\nv 0 0 1e7\nf 4 5 6\n");
     ASSERT_EQ(coarse.left_out.size(), 1u);
     EXPECT_THAT(coarse.left_out[0].why, HasSubstr("step"));
+}
+
+TEST_F(ObjFile, StandsWhereMostOfItIs) {
+    const auto level = [](double y, double half) {
+        std::string text;
+        for (const auto& [x, z] : {std::pair{-half, -half}, {-half, half}, {half, half}, {half, -half}}) {
+            text += "v " + std::to_string(500000.0 + x) + " " + std::to_string(y) + " " +
+                    std::to_string(-4000000.0 + z) + "\n";
+        }
+        return text + "f -4 -3 -2 -1\n";
+    };
+    const std::string yard = level(0, 100) + level(10, 50);
+    EXPECT_TRUE(load(yard).left_out.empty());
+    // A triangle at the origin of coordinates, before or after the rest, loses its shape, not the yard its shadows.
+    const std::string stray = "v 0 0 0\nv 0 0 1\nv 1 0 0\nf -3 -2 -1\n";
+    for (const std::string& text : {yard + stray, stray + yard, yard + stray + stray}) {
+        const Scene s = load(text);
+        EXPECT_LT(glm::length(s.origin - glm::dvec3(5e5, 0, -4e6)), 200.0);
+        ASSERT_EQ(s.left_out.size(), 1u);
+        EXPECT_THAT(s.left_out[0].what, HasSubstr("shadows of"));
+        EXPECT_THAT(s.left_out[0].why, HasSubstr("rays leave a surface by"));
+    }
+    // Also one of very many is said.
+    std::string many;
+    for (int i = 0; i < 300; ++i) many += level(0.5 * i, 100);
+    EXPECT_EQ(load(many + stray).left_out.size(), 1u);
+    // What is small and near the origin is not given up for a backdrop.
+    std::string house;
+    for (int i = 0; i < 20; ++i) house += "v 0 0 " + std::to_string(i) + "\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\n";
+    EXPECT_EQ(load(house + "v 9000 0 0\nv 9000 500 0\nv 9000 0 500\nf -3 -2 -1\n").origin, glm::dvec3(0.0));
 }
 
 }  // namespace

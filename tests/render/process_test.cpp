@@ -1,5 +1,7 @@
 #include <chrono>
 #include <cmath>
+#include <filesystem>
+#include <map>
 #include <numbers>
 #include <string>
 #include <thread>
@@ -10,6 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <render/picture.hpp>
 
+#include "bitmap.hpp"
 #include "programs.hpp"
 
 namespace {
@@ -203,7 +206,7 @@ TEST_F(Programs, ListAndDescribe) {
     const auto help = render("--help");
     EXPECT_EQ(help.status, 0);
     EXPECT_NE(help.out.find("--error-ratio"), std::string::npos);
-    EXPECT_EQ(render("--version").status, 0);
+    EXPECT_EQ(render("--version").out, std::string("lightcuts-render ") + LIGHTCUTS_VERSION + "\n");
     EXPECT_EQ(compare("--help").status, 0);
 }
 
@@ -307,6 +310,42 @@ TEST_F(Programs, LeaveOldFilesAloneWhenTheyFail) {
     EXPECT_EQ(render("room.obj --lights absent.csv" + view).status, 1);
     EXPECT_EQ(folder.read("render.exr"), "old");
     EXPECT_FALSE(folder.has("render.png"));
+}
+
+TEST_F(Programs, NeverReplaceWhatTheyRead) {
+    folder.write("wall.mtl", "newmtl grey\nKd 1\nmap_Kd wall.png\n");
+    folder.write("wall.obj", "mtllib wall.mtl\nv -4 0 -4\nv 4 0 -4\nv 4 0 4\nvt 0 0\nusemtl grey\nf 3/1 2/1 1/1\n");
+    Picture map(4, 2);
+    for (glm::vec3& pixel : map.pixels) pixel = glm::vec3(1.0f);
+    write_exr(folder / "sky.exr", map);
+    write_exr(folder / "other.partial.exr", map);
+    write_exr(folder / "best.exr", Picture(8, 8));
+    folder.write("wall.png", bitmap({{200, 100, 50}}));
+    folder.write("wall.json", folder.read("one.csv"));
+    std::filesystem::create_symlink("sky.exr", folder / "link.exr");
+    std::map<std::string, std::string> before;
+    for (const std::string& name : files()) before[name] = folder.read(name);
+    for (const char* arguments :
+         {"wall.obj --lights one.csv -o wall.exr", "wall.obj --lights one.csv -o ./wall.exr",
+          "floor.obj --lights one.csv -o floor.obj", "room.obj -o room.mtl", "floor.obj --env sky.exr -o sky.exr",
+          "floor.obj --env sky.exr -o link.exr", "floor.obj --env link.exr -o sky.exr",
+          "floor.obj --lights wall.json -o wall.exr", "floor.obj --lights one.csv -o one.csv",
+          "room.obj --reference best.exr -o best.exr", "floor.obj --env other.partial.exr -o other.exr"}) {
+        const auto result = render(std::string(arguments) + " --size 8x8 --quiet" + view);
+        EXPECT_EQ(result.status, 1) << arguments << ": " << result.err;
+        EXPECT_TRUE(is_one_line(result.err)) << arguments << ": " << result.err;
+        EXPECT_NE(result.err.find("would replace a file that is read"), std::string::npos) << result.err;
+        std::map<std::string, std::string> after;
+        for (const std::string& name : files()) after[name] = folder.read(name);
+        EXPECT_TRUE(after == before) << arguments;
+    }
+    for (const char* arguments : {"best.exr best.exr --out best.exr", "best.exr sky.exr --out sky.exr"}) {
+        const auto result = compare(arguments);
+        EXPECT_EQ(result.status, 1) << arguments;
+        EXPECT_NE(result.err.find("would replace a file that is read"), std::string::npos) << result.err;
+    }
+    EXPECT_EQ(folder.read("best.exr"), before["best.exr"]);
+    EXPECT_EQ(render("room.obj -o room.exr --size 8x8 --quiet" + view).status, 0) << "names of its own may be alike";
 }
 
 TEST_F(Programs, CompareRefusesInOneLine) {

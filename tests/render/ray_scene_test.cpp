@@ -12,6 +12,7 @@
 #include <glm/geometric.hpp>
 #include <lightcuts/adapt/embree.hpp>
 #include <render/ray_scene.hpp>
+#include <render/surface_geometry.hpp>
 #include <render/view.hpp>
 
 namespace {
@@ -249,6 +250,91 @@ TEST(RayScene, TintsAShadowRayOncePerPane) {
             ASSERT_EQ(rays.to_infinity(from, direction), glm::vec3(0.25f)) << (welded ? "welded, ray " : "ray ") << i;
         }
     }
+}
+
+/// Half-transparent sheets z = 0, each a square of two triangles: cut along either diagonal, facing either way, their
+/// corners shared or not.
+Scene sheets(std::size_t count, unsigned kinds) {
+    Scene s;
+    const std::vector<glm::vec3> square{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+    for (std::size_t i = 0; i < count; ++i) {
+        const unsigned kind = kinds >> (3 * i) & 7u;
+        std::array<std::uint32_t, 4> q{0, 1, 2, 3};
+        if ((kind & 1u) != 0) q = {1, 2, 3, 0};
+        if ((kind & 2u) != 0) std::reverse(q.begin(), q.end());
+        const bool is_first = s.positions.empty();
+        const auto base = (kind & 4u) != 0 || is_first ? static_cast<std::uint32_t>(s.positions.size()) : 0u;
+        if (base > 0 || is_first) s.positions.insert(s.positions.end(), square.begin(), square.end());
+        s.triangles.push_back({base + q[0], base + q[1], base + q[2]});
+        s.triangles.push_back({base + q[0], base + q[2], base + q[3]});
+    }
+    finish(s);
+    s.materials[0].alpha = render::Material::Alpha::blend;
+    s.materials[0].base_alpha = 0.5f;
+    return s;
+}
+
+TEST(RayScene, TakesCoincidentSheetsAsOneLayer) {
+    Random random(8);
+    for (std::size_t count = 1; count <= 3; ++count) {
+        for (unsigned kinds = 0; kinds < 1u << (3 * count); ++kinds) {
+            const Scene s = sheets(count, kinds);
+            const RayScene rays(s);
+            for (int i = 0; i < 20; ++i) {
+                glm::vec3 at(uniform(random, -0.99f, 0.99f), uniform(random, -0.99f, 0.99f), 0.0f);
+                if (i % 4 == 0) at.y = at.x;  // on the diagonals
+                if (i % 4 == 1) at.y = -at.x;
+                const glm::vec3 way(uniform(random, -1.0f, 1.0f), uniform(random, -1.0f, 1.0f), i % 2 == 0 ? 1 : -1);
+                ASSERT_EQ(rays.to_point(at - way, at + way), glm::vec3(0.5f)) << count << " sheets, " << kinds;
+            }
+        }
+    }
+}
+
+TEST(RayScene, SeesAsManyLayersAsItLights) {
+    // Sheets at distances about that at which rays leave a surface: as many darken the light as an eye ray meets.
+    Random random(9);
+    for (const float gap : {0.0f, 1e-7f, 1e-6f, 3e-6f, 5e-6f, 1e-5f, 1e-3f}) {
+        Scene s = sheets(3, 0111);
+        s.positions.clear();
+        s.triangles.clear();
+        for (const float z : {0.0f, gap, 2.0f * gap}) {
+            const auto base = static_cast<std::uint32_t>(s.positions.size());
+            for (const glm::vec2 p : {glm::vec2(-1, -1), {1, -1}, {1, 1}, {-1, 1}}) s.positions.emplace_back(p, z);
+            add_quad(s, base, base + 1, base + 2, base + 3);
+        }
+        const RayScene rays(s);
+        for (int i = 0; i < 50; ++i) {
+            const glm::vec3 from(uniform(random, -0.5f, 0.5f), uniform(random, -0.5f, 0.5f), i % 2 == 0 ? 1.0f : -1.0f);
+            const glm::vec3 way = glm::normalize(
+                glm::vec3(uniform(random, -0.4f, 0.4f), uniform(random, -0.4f, 0.4f), -from.z));
+            float seen = 1.0f;
+            glm::vec3 at = from;
+            while (const auto hit = rays.nearest(at, way)) {
+                at = render::surface_at(s, *hit, way).leave(way);
+                seen *= 0.5f;
+            }
+            EXPECT_EQ(rays.to_infinity(from, way), glm::vec3(seen)) << gap;
+        }
+    }
+}
+
+TEST(RayScene, CountsBothSidesOfAWedgeNearItsRidge) {
+    // A ray that crosses a sharp wedge a little below its ridge meets two sheets, one at its very ridge at most that.
+    Scene s;
+    s.positions = {{-10, 0, 0}, {10, 0, 0}, {10, -10, 1}, {-10, -10, 1}, {10, -10, -1}, {-10, -10, -1}};
+    add_quad(s, 3, 2, 1, 0);
+    add_quad(s, 0, 1, 4, 5);
+    finish(s);
+    s.materials[0].alpha = render::Material::Alpha::blend;
+    s.materials[0].base_alpha = 0.5f;
+    const RayScene rays(s);
+    for (const float below : {0.003f, 0.01f, 0.1f, 1.0f}) {
+        EXPECT_EQ(rays.to_infinity({0.3f, -below, 100.0f}, {0, 0, -1}), glm::vec3(0.25f)) << below;
+    }
+    EXPECT_EQ(rays.to_infinity({0.3f, 1e-3f, 100.0f}, {0, 0, -1}), glm::vec3(1.0f));
+    // From above, along the ridge itself, it enters by one side.
+    EXPECT_EQ(rays.to_point({0.3f, 1.0f, 0.0f}, {0.3f, -5.0f, 0.0f}), glm::vec3(0.5f));
 }
 
 }  // namespace

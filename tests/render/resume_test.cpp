@@ -1,4 +1,5 @@
 #include <filesystem>
+#include <fstream>
 #include <string>
 
 #include <fcntl.h>
@@ -111,6 +112,25 @@ TEST_F(Resume, RefusesAnotherPictureAndSaysWhatDiffers) {
     std::filesystem::copy(folder / "room.obj", folder / "same.obj");
     std::string renamed = large + "--threads 2 --resume";
     EXPECT_EQ(render(renamed.replace(0, 4, "same")).status, 0);
+    EXPECT_GT(report("render.json").at("resumed_tiles"), 0);
+}
+
+TEST_F(Resume, RefusesWhatAnotherBuildHasBegun) {
+    begin(large, SIGKILL);
+    const std::string before = folder.read("render.resume");
+    // The same program to the system, but not the same file.
+    std::filesystem::copy_file(LIGHTCUTS_RENDER_EXECUTABLE, folder / "other");
+    const auto other = [&] { return run(folder / "other", large + "--resume"); };
+    std::ofstream(folder / "other", std::ios::app | std::ios::binary) << "another build";
+    const auto result = other();
+    EXPECT_EQ(result.status, 1);
+    EXPECT_TRUE(is_one_line(result.err)) << result.err;
+    EXPECT_NE(result.err.find("lightcuts-render ("), std::string::npos) << result.err;
+    EXPECT_TRUE(folder.read("render.resume") == before);
+    // Where the file is does not matter.
+    std::filesystem::copy_file(LIGHTCUTS_RENDER_EXECUTABLE, folder / "other",
+                               std::filesystem::copy_options::overwrite_existing);
+    EXPECT_EQ(other().status, 0);
     EXPECT_GT(report("render.json").at("resumed_tiles"), 0);
 }
 

@@ -34,7 +34,7 @@ glm::dvec3 mean_over(const render::Picture& picture, float x0, float x1, float y
 }
 
 TEST_F(TestCard, ShowsOnTheLeftOfEachTileWhatIsOnTheRight) {
-    const auto done = render("builtin:test-card --method exhaustive --area-points 16 --size 400x300 -o card.exr");
+    const auto done = render("builtin:test-card --method exhaustive --area-points 64 --size 400x300 -o card.exr");
     ASSERT_EQ(done.status, 0) << done.err;
     const render::Picture card = render::read_exr(folder / "card.exr");
     for (int row = 0; row < render::test_card_rows; ++row) {

@@ -161,6 +161,14 @@ TEST(TextureFile, OfOpenExrIsLinearAndNoLongerPremultiplied) {
     }
 }
 
+TEST(TextureFile, OfOpenExrMayStayPremultiplied) {
+    const std::string file = exr_with({{8, 4, 2, 1}, {1, 0.5, 0.25, 0.5}, {3, 2, 1, 0}});
+    const Texture texture = render::texture_of_bytes(file, "a.exr", true, render::Premultiplication::keep);
+    EXPECT_EQ(texture.texels[0], glm::vec4(8, 4, 2, 1));
+    EXPECT_EQ(texture.texels[1], glm::vec4(1, 0.5f, 0.25f, 0.5f));
+    EXPECT_EQ(texture.texels[2], glm::vec4(3, 2, 1, 0));
+}
+
 TEST(TextureFile, RefusesTexelsThatAreNoLight) {
     constexpr float nan = std::numeric_limits<float>::quiet_NaN(), infinite = std::numeric_limits<float>::infinity();
     for (const glm::vec4& texel : {glm::vec4(-1, 0, 0, 1), glm::vec4(0, nan, 0, 1), glm::vec4(0, 0, infinite, 1),

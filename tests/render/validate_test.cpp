@@ -65,6 +65,7 @@ TEST(Validate, BadGeometry) {
 TEST(Validate, BadMaterials) {
     EXPECT_THAT(refused([](Scene& s) { s.materials[0].emission.y = -1; }), HasSubstr("emission"));
     EXPECT_THAT(refused([](Scene& s) { s.materials[0].emission.y = infinity; }), HasSubstr("emission"));
+    EXPECT_THAT(refused([](Scene& s) { s.materials[0].emission.y = 3e38f; }), HasSubstr("light of its surfaces"));
     EXPECT_THAT(refused([](Scene& s) { s.materials[0].roughness = nan; }), HasSubstr("roughness"));
     EXPECT_THAT(refused([](Scene& s) { s.materials[0].metallic = 2; }), HasSubstr("metallic"));
     EXPECT_THAT(refused([](Scene& s) { s.materials[0].base_color_texture.texture = 0; }), HasSubstr("texture"));

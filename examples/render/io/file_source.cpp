@@ -1,7 +1,5 @@
 #include "io/file_source.hpp"
 
-#include <algorithm>
-#include <cctype>
 #include <system_error>
 #include <vector>
 
@@ -11,12 +9,6 @@
 
 namespace render {
 namespace {
-
-std::string in_lower_case(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return text;
-}
 
 std::string_view without_quotes(std::string_view name) {
     const bool quoted = name.size() >= 2 && name.front() == name.back() &&
@@ -67,7 +59,10 @@ std::optional<std::filesystem::path> FileSource::find(const std::filesystem::pat
     return similar(folder / portable(bare));
 }
 
-std::string DiskFiles::read(const std::filesystem::path& path) const { return read_file(path); }
+std::string DiskFiles::read(const std::filesystem::path& path) const {
+    taken_.push_back(path);
+    return read_file(path);
+}
 
 bool DiskFiles::has(const std::filesystem::path& path) const {
     std::error_code ignored;

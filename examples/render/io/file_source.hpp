@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace render {
 
@@ -27,14 +28,19 @@ private:
     virtual std::optional<std::filesystem::path> similar(const std::filesystem::path& path) const = 0;
 };
 
-/// Files on the disk. Pipes can be read too; devices and what is larger than memory cannot.
+/// Files on the disk. Pipes can be read too; devices and what is larger than memory cannot. For one thread.
 class DiskFiles final : public FileSource {
 public:
     std::string read(const std::filesystem::path& path) const override;
 
+    /// Those that were read so far, or tried.
+    const std::vector<std::filesystem::path>& taken() const { return taken_; }
+
 private:
     bool has(const std::filesystem::path& path) const override;
     std::optional<std::filesystem::path> similar(const std::filesystem::path& path) const override;
+
+    mutable std::vector<std::filesystem::path> taken_;
 };
 
 /// Files that the program holds itself.

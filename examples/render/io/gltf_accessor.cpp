@@ -1,6 +1,7 @@
 #include "io/gltf_accessor.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <limits>
@@ -129,7 +130,8 @@ bool has_data(const GltfDocument& document, std::size_t index) {
     return accessor.has("bufferView") || accessor.has("sparse");
 }
 
-std::vector<double> read_accessor(GltfDocument& document, std::size_t index, std::size_t components) {
+std::vector<double> read_accessor(GltfDocument& document, std::size_t index, std::size_t components, std::size_t most,
+                                  const char* element) {
     const JsonObject accessor = document.element("accessors", index, "accessor");
     if (components_of(accessor) != components) {
         accessor.fail("its elements have the wrong number of components; the file is damaged");
@@ -149,6 +151,12 @@ std::vector<double> read_accessor(GltfDocument& document, std::size_t index, std
         values.resize(count * components);
     }
     if (accessor.has("sparse")) apply_sparse(document, accessor, components, values);
+    if (most < count) values.resize(most * components);
+    const auto bad = std::find_if(values.begin(), values.end(), [](double v) { return !std::isfinite(v); });
+    if (bad != values.end()) {
+        const auto place = static_cast<std::size_t>(bad - values.begin()) / components;
+        accessor.fail(std::string("its ") + element + " " + std::to_string(place) + " is not finite; correct it");
+    }
     return values;
 }
 

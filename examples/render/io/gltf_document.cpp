@@ -170,7 +170,7 @@ void GltfDocument::require_extensions() const {
     }
 }
 
-void GltfDocument::note_extensions(std::vector<LeftOut>& left_out) const {
+void GltfDocument::note_extensions(LeftOutList& left_out) const {
     std::set<std::string> names = extensions_in(json_);
     for (const Json& value : root().list("extensionsUsed")) {
         if (value.is_string()) names.insert(value.get<std::string>());

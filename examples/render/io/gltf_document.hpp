@@ -39,7 +39,7 @@ public:
     std::string resource(const std::string& uri) const;
 
     /// Names the extensions that the file uses and this renderer does not know.
-    void note_extensions(std::vector<LeftOut>& left_out) const;
+    void note_extensions(LeftOutList& left_out) const;
 
 private:
     void parse(std::string bytes);

@@ -9,6 +9,7 @@
 
 #include "escape.hpp"
 #include "io/uri.hpp"
+#include "reflectance.hpp"
 #include "text_file.hpp"
 #include "texture.hpp"
 
@@ -79,13 +80,16 @@ Material GltfMaterials::convert(const JsonObject& source) {
     m.name = source.text("name");
     m.double_sided = source.flag("doubleSided", false);
     convert_alpha(source, m);
+    if (source.extension("KHR_materials_unlit")) m.model = Material::Model::unlit;
     if (const auto old = source.extension("KHR_materials_pbrSpecularGlossiness")) {
         convert_specular_glossiness(*old, m);
     } else {
         convert_metallic_roughness(source, m);
     }
-    if (source.extension("KHR_materials_unlit")) {
-        convert_unlit(m);
+    if (m.model == Material::Model::unlit) {
+        // What it shows, it emits.
+        m.emission = m.base_color;
+        m.emission_texture = m.base_color_texture;
         return m;
     }
     convert_emission(source, m);
@@ -109,42 +113,48 @@ void GltfMaterials::convert_alpha(const JsonObject& source, Material& m) {
     m.alpha_cutoff = static_cast<float>(source.number("alphaCutoff", 0.5));
 }
 
-void GltfMaterials::convert_metallic_roughness(const JsonObject& source, Material& m) {
-    const JsonObject pbr = source.object("pbrMetallicRoughness");
-    const glm::vec4 base = color_with_alpha(pbr, "baseColorFactor");
+void GltfMaterials::convert_base(const JsonObject& owner, const char* factor, const char* map, const JsonObject& source,
+                                 Material& m) {
+    const glm::vec4 base = color_with_alpha(owner, factor);
     m.base_color = glm::vec3(base);
     m.base_alpha = base.a;
-    m.base_color_texture = texture(pbr, "baseColorTexture", Coding::color, source);
+    const bool is_unlit = m.model == Material::Model::unlit;
+    const bool wanted = m.base_color != glm::vec3(0.0f) || m.alpha != Material::Alpha::opaque;
+    m.base_color_texture = texture(owner, map, is_unlit ? Coding::shown : Coding::color, source, wanted);
+}
+
+void GltfMaterials::convert_metallic_roughness(const JsonObject& source, Material& m) {
+    const JsonObject pbr = source.object("pbrMetallicRoughness");
+    convert_base(pbr, "baseColorFactor", "baseColorTexture", source, m);
     m.metallic = static_cast<float>(pbr.number("metallicFactor", 1.0));
     m.roughness = static_cast<float>(pbr.number("roughnessFactor", 1.0));
-    m.metallic_roughness_texture = texture(pbr, "metallicRoughnessTexture", Coding::data, source);
+    if (m.model == Material::Model::unlit) return;
+    const bool varies = m.metallic != 0.0f || m.roughness != 0.0f;
+    m.metallic_roughness_texture = texture(pbr, "metallicRoughnessTexture", Coding::data, source, varies);
     if (const auto extension = source.extension("KHR_materials_ior")) {
         m.ior = static_cast<float>(extension->number("ior", 1.5));
     }
-    if (const auto extension = source.extension("KHR_materials_specular")) {
-        m.specular_weight = extension->number_in("specularFactor", 1.0f, 0.0f, 1.0f);
-        m.specular_weight_texture = texture(*extension, "specularTexture", Coding::data, source);
-        m.specular_tint = extension->color("specularColorFactor", glm::vec3(1.0f));
-        m.specular_texture = texture(*extension, "specularColorTexture", Coding::color, source);
-    }
+    if (const auto extension = source.extension("KHR_materials_specular")) convert_specular(*extension, source, m);
+}
+
+void GltfMaterials::convert_specular(const JsonObject& extension, const JsonObject& source, Material& m) {
+    m.specular_weight = extension.number_in("specularFactor", 1.0f, 0.0f, 1.0f);
+    m.specular_tint = extension.color("specularColorFactor", glm::vec3(1.0f));
+    // At grazing incidence the weight acts alone.
+    const bool reflects = m.specular_weight != 0.0f;
+    const bool is_tinted = reflects && m.specular_tint != glm::vec3(0.0f);
+    m.specular_weight_texture = texture(extension, "specularTexture", Coding::data, source, reflects);
+    m.specular_texture = texture(extension, "specularColorTexture", Coding::color, source, is_tinted);
 }
 
 void GltfMaterials::convert_specular_glossiness(const JsonObject& extension, Material& m) {
+    convert_base(extension, "diffuseFactor", "diffuseTexture", extension, m);
+    if (m.model == Material::Model::unlit) return;
     m.model = Material::Model::specular_glossiness;
-    const glm::vec4 base = color_with_alpha(extension, "diffuseFactor");
-    m.base_color = glm::vec3(base);
-    m.base_alpha = base.a;
-    m.base_color_texture = texture(extension, "diffuseTexture", Coding::color, extension);
     m.specular = extension.color("specularFactor", glm::vec3(1.0f));
     m.roughness = 1.0f - extension.number_in("glossinessFactor", 1.0f, 0.0f, 1.0f);
-    m.specular_texture = texture(extension, "specularGlossinessTexture", Coding::color, extension);
-}
-
-/// What an unlit surface shows, it emits.
-void GltfMaterials::convert_unlit(Material& m) {
-    m.model = Material::Model::unlit;
-    m.emission = m.base_color;
-    m.emission_texture = m.base_color_texture;
+    const bool varies = m.specular != glm::vec3(0.0f) || m.roughness != 1.0f;
+    m.specular_texture = texture(extension, "specularGlossinessTexture", Coding::color, extension, varies);
 }
 
 void GltfMaterials::convert_emission(const JsonObject& source, Material& m) {
@@ -153,7 +163,7 @@ void GltfMaterials::convert_emission(const JsonObject& source, Material& m) {
     m.emission = source.color("emissiveFactor", glm::vec3(0.0f)) * strength;
     // What has no effect is not loaded, here and below.
     const bool emits = m.emission != glm::vec3(0.0f);
-    m.emission_texture = texture(source, "emissiveTexture", Coding::color, source, emits);
+    m.emission_texture = texture(source, "emissiveTexture", Coding::emission, source, emits);
 }
 
 void GltfMaterials::convert_transmission(const JsonObject& source, Material& m) {
@@ -169,8 +179,9 @@ void GltfMaterials::convert_transmission(const JsonObject& source, Material& m) 
     const bool passes = m.diffuse_transmission != 0.0f;
     m.diffuse_transmission_color = extension->color("diffuseTransmissionColorFactor", glm::vec3(1.0f));
     m.diffuse_transmission_texture = texture(*extension, "diffuseTransmissionTexture", Coding::data, source, passes);
+    const bool is_tinted = passes && m.diffuse_transmission_color != glm::vec3(0.0f);
     m.diffuse_transmission_color_texture = texture(*extension, "diffuseTransmissionColorTexture", Coding::color, source,
-                                                   passes);
+                                                   is_tinted);
 }
 
 void GltfMaterials::convert_normals(const JsonObject& source, Material& m) {
@@ -180,7 +191,7 @@ void GltfMaterials::convert_normals(const JsonObject& source, Material& m) {
         m.normal_texture = texture(source, "normalTexture", Coding::data, source);
     } catch (const invalid_input& problem) {
         // A picture without it is flat, not wrong in its light.
-        leave_out(scene_.left_out, "a normal map", problem.what());
+        leave_out(scene_.left_out, std::string("a normal map (") + problem.what() + ")", "it cannot be read");
     }
 }
 
@@ -204,8 +215,13 @@ TextureUse GltfMaterials::texture(const JsonObject& owner, const char* key, Codi
     const auto transform = texture_transform(info, material);
     const UvTransform uv = transform ? transform_of(*transform) : UvTransform();
     const std::size_t set = transform ? transform->whole_number("texCoord", own_set) : own_set;
-    if (!wanted) return {};
-    return {load(*index, coding), uv_set(set), uv};
+    if (!wanted) {
+        unwanted_.emplace(*index, std::string(key) + " has no effect where its factor is 0");
+        return {};
+    }
+    try {
+        return {load(*index, coding), uv_set(set), uv};
+    } catch (const invalid_input& problem) { throw invalid_input(name + ": " + problem.what()); }
 }
 
 std::uint32_t GltfMaterials::uv_set(std::size_t number) {
@@ -242,17 +258,72 @@ Texture GltfMaterials::read_image(std::size_t index, Coding coding) {
     const JsonObject image = document_.element("images", index, "image");
     used_images_.insert(index);
     const std::string name = name_of_image(image);
-    const bool is_color = coding == Coding::color;
-    if (image.has("bufferView")) return texture_of_bytes(document_.view(image.needed("bufferView")), name, is_color);
-    if (!image.has("uri")) image.fail("it names no file; the scene is damaged");
-    return texture_of_bytes(document_.resource(image.text("uri")), name, is_color);
+    const bool is_color = coding != Coding::data;
+    const auto premultiplication = coding == Coding::emission ? Premultiplication::keep : Premultiplication::undo;
+    Texture texture;
+    if (image.has("bufferView")) {
+        const std::string_view bytes = document_.view(image.needed("bufferView"));
+        texture = texture_of_bytes(bytes, name, is_color, premultiplication);
+    } else {
+        if (!image.has("uri")) image.fail("it names no file; the scene is damaged");
+        texture = texture_of_bytes(document_.resource(image.text("uri")), name, is_color, premultiplication);
+    }
+    if (coding == Coding::color || coding == Coding::data) clip_reflectance(texture, scene_.left_out);
+    return texture;
+}
+
+/// Adds why the images that the JSON of a used material mentions have no effect.
+void GltfMaterials::note_references(const nlohmann::json& material, bool is_unlit,
+                                    std::map<std::size_t, std::string>& why) const {
+    std::vector<const nlohmann::json*> open{&material};
+    while (!open.empty()) {
+        const nlohmann::json& at = *open.back();
+        open.pop_back();
+        for (auto member = at.begin(); member != at.end(); ++member) {
+            if (!member->is_object() || member.key() == "extras") continue;
+            open.push_back(&*member);
+            const auto index = member->find("index");
+            const bool is_texture = member.key().ends_with("Texture") && index != member->end();
+            if (!is_texture || !index->is_number_unsigned()) continue;
+            const auto texture = index->get<std::size_t>();
+            if (texture >= document_.count("textures")) continue;
+            const auto note = [&](const nlohmann::json& source, const std::string& reason) {
+                if (source.is_number_unsigned()) why.emplace(source.get<std::size_t>(), reason);
+            };
+            const nlohmann::json& json = document_.root().list("textures")[texture];
+            if (const auto image = json.find("source"); image != json.end()) {
+                const char* reason = is_unlit ? " of an unlit material has no effect" : " has no effect here";
+                note(*image, excerpt(member.key()) + reason);
+            }
+            const auto extensions = json.find("extensions");
+            if (extensions == json.end() || !extensions->is_object()) continue;
+            for (auto each = extensions->begin(); each != extensions->end(); ++each) {
+                if (!each->is_object() || !each->contains("source")) continue;
+                note((*each)["source"], "images of " + excerpt(each.key()) + " cannot be read");
+            }
+        }
+    }
 }
 
 void GltfMaterials::note_unused_images() const {
+    std::map<std::size_t, std::string> why;
+    for (const auto& [texture, reason] : unwanted_) {
+        if (texture >= document_.count("textures")) continue;
+        if (const auto image = document_.element("textures", texture, "texture").index("source")) {
+            why.emplace(*image, reason);
+        }
+    }
+    for (const auto& [index, place] : added_) {
+        if (!index) continue;
+        const bool is_unlit = scene_.materials[place].model == Material::Model::unlit;
+        note_references(document_.root().list("materials")[*index], is_unlit, why);
+    }
     for (std::size_t i = 0; i < document_.count("images"); ++i) {
         if (used_images_.contains(i)) continue;
         const JsonObject image = document_.element("images", i, "image");
-        leave_out(scene_.left_out, name_of_image(image), "no material that is used refers to this image");
+        const auto known = why.find(i);
+        leave_out(scene_.left_out, name_of_image(image),
+                  known != why.end() ? known->second : "no material that is used refers to this image");
     }
 }
 

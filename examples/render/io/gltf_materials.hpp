@@ -30,29 +30,37 @@ public:
     void note_unused_images() const;
 
 private:
-    enum class Coding { color, data };  ///< sRGB, or numbers
+    /// What texels are: reflectance; what an unlit surface shows, which may be above 1; emitted radiance; numbers. All
+    /// but the last are sRGB-encoded.
+    enum class Coding { color, shown, emission, data };
 
     Material convert(const JsonObject& source);
     void convert_metallic_roughness(const JsonObject& source, Material& material);
+    void convert_specular(const JsonObject& extension, const JsonObject& source, Material& material);
     void convert_specular_glossiness(const JsonObject& extension, Material& material);
-    void convert_unlit(Material& material);
+    /// The factor and texture of the base or diffuse colour in `owner`.
+    void convert_base(const JsonObject& owner, const char* factor, const char* map, const JsonObject& source,
+                      Material& material);
     void convert_emission(const JsonObject& source, Material& material);
     void convert_transmission(const JsonObject& source, Material& material);
     void convert_normals(const JsonObject& source, Material& material);
     void convert_alpha(const JsonObject& source, Material& material);
 
-    /// The texture that member `key` of `owner` names, if it is there and `wanted`. `material`: as messages call it.
+    /// The texture that member `key` of `owner` names, if it is there and `wanted`; else it has no effect, as a factor
+    /// is 0. `material`: as messages call it.
     TextureUse texture(const JsonObject& owner, const char* key, Coding coding, const JsonObject& material,
                        bool wanted = true);
     std::uint32_t uv_set(std::size_t number);
     int load(std::size_t texture, Coding coding);
     Texture read_image(std::size_t image, Coding coding);
+    void note_references(const nlohmann::json& material, bool is_unlit, std::map<std::size_t, std::string>& why) const;
 
     GltfDocument& document_;
     Scene& scene_;
     std::map<std::optional<std::size_t>, std::uint32_t> added_;
     std::map<std::pair<std::size_t, Coding>, int> textures_;
     std::set<std::size_t> used_images_;
+    std::map<std::size_t, std::string> unwanted_;  ///< textures that a used material names without effect, and why
     std::vector<std::size_t> uv_sets_;
 };
 

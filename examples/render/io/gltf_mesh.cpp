@@ -1,5 +1,6 @@
 #include "io/gltf_mesh.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -9,9 +10,6 @@
 
 namespace render {
 namespace {
-
-/// Joints are indices of 16 bits.
-constexpr double most_joints = 65535.0;
 
 enum class Mode : std::size_t { list = 4, strip = 5, fan = 6 };
 
@@ -61,7 +59,8 @@ std::vector<double> GltfMeshes::attribute(const JsonObject& attributes, const ch
     if (!accessor) return {};
     std::vector<double> values;
     try {
-        values = read_accessor(document_, *accessor, components);
+        constexpr std::size_t all = std::numeric_limits<std::size_t>::max();
+        values = read_accessor(document_, *accessor, components, all, "vertex");
     } catch (const lightcuts::invalid_input& problem) { attributes.fail(std::string(name) + ": " + problem.what()); }
     if (values.size() != count * components) {
         attributes.fail("its attributes differ in length; the file is damaged");
@@ -125,23 +124,24 @@ void GltfMeshes::read_uvs(const JsonObject& attributes, GltfPrimitive& primitive
     }
 }
 
+/// What is wrong with them matters to those alone who have a skin.
 void GltfMeshes::read_bones(const JsonObject& attributes, GltfPrimitive& primitive) {
-    const std::size_t count = primitive.positions.size();
-    for (std::size_t set = 0; attributes.has(numbered("JOINTS_", set).c_str()); ++set) {
-        const std::vector<double> joints = attribute(attributes, numbered("JOINTS_", set).c_str(), 4, count);
-        const std::vector<double> weights = attribute(attributes, numbered("WEIGHTS_", set).c_str(), 4, count);
-        if (weights.empty()) attributes.fail("it has joints without weights; the file is damaged");
-        std::vector<GltfBones>& bones = primitive.bones.emplace_back(count);
-        for (std::size_t v = 0; v < count; ++v) {
-            for (std::size_t k = 0; k < 4; ++k) {
-                const bool is_joint = joints[4 * v + k] >= 0.0 && joints[4 * v + k] <= most_joints;
-                if (!is_joint || !(weights[4 * v + k] >= 0.0)) {
-                    attributes.fail("a joint is no index, or its weight is negative; the file is damaged");
-                }
-                bones[v].joints[k] = static_cast<std::uint32_t>(joints[4 * v + k]);
-                bones[v].weights[k] = weights[4 * v + k];
-            }
+    try {
+        for (std::size_t set = 0; attributes.has(numbered("JOINTS_", set).c_str()); ++set) {
+            read_bones(attributes, set, primitive);
         }
+    } catch (const lightcuts::invalid_input& problem) { primitive.bones_problem = problem.what(); }
+}
+
+void GltfMeshes::read_bones(const JsonObject& attributes, std::size_t set, GltfPrimitive& primitive) {
+    const std::size_t count = primitive.positions.size();
+    const std::vector<double> joints = attribute(attributes, numbered("JOINTS_", set).c_str(), 4, count);
+    const std::vector<double> weights = attribute(attributes, numbered("WEIGHTS_", set).c_str(), 4, count);
+    if (weights.empty()) attributes.fail("it has joints without weights; the file is damaged");
+    std::vector<GltfBones>& bones = primitive.bones.emplace_back(count);
+    for (std::size_t v = 0; v < count; ++v) {
+        std::copy_n(&joints[4 * v], 4, bones[v].joints.begin());
+        std::copy_n(&weights[4 * v], 4, bones[v].weights.begin());
     }
 }
 

@@ -27,7 +27,7 @@ struct GltfMorph {
 
 /// Of a skinned vertex: four joints and their shares.
 struct GltfBones {
-    std::array<std::uint32_t, 4> joints{};
+    std::array<double, 4> joints{};  ///< as the file says, whether they exist or not
     std::array<double, 4> weights{};
 };
 
@@ -41,6 +41,7 @@ struct GltfPrimitive {
     std::vector<glm::dvec4> colors;
     std::map<std::size_t, std::vector<glm::vec2>> uvs;  ///< by the n of TEXCOORD_n; those that the material uses
     std::vector<std::vector<GltfBones>> bones;          ///< four joints a set
+    std::string bones_problem;                          ///< why `bones` cannot be used; empty: they can
     std::vector<GltfMorph> morphs;
     std::vector<glm::uvec3> triangles;
 };
@@ -66,6 +67,7 @@ private:
     void read_primitive(const JsonObject& source, GltfPrimitive& primitive);
     void read_uvs(const JsonObject& attributes, GltfPrimitive& primitive);
     void read_bones(const JsonObject& attributes, GltfPrimitive& primitive);
+    void read_bones(const JsonObject& attributes, std::size_t set, GltfPrimitive& primitive);
     void read_morphs(const JsonObject& source, GltfPrimitive& primitive);
     void read_triangles(const JsonObject& source, GltfPrimitive& primitive);
     std::vector<double> attribute(const JsonObject& attributes, const char* name, std::size_t components,

@@ -11,15 +11,11 @@
 #include <glm/mat3x3.hpp>
 #include <lightcuts/core/invalid_input.hpp>
 
+#include "escape.hpp"
 #include "io/gltf_accessor.hpp"
 
 namespace render {
 namespace {
-
-glm::dmat3 rotation_of(const std::vector<double>& q) {
-    const glm::dquat quaternion(q[3], q[0], q[1], q[2]);
-    return glm::length(quaternion) > 0.0 ? glm::mat3_cast(glm::normalize(quaternion)) : glm::dmat3(1.0);
-}
 
 /// `m` with columns of unit length, as far as they have any.
 glm::dmat3 without_scale(glm::dmat3 m) {
@@ -32,12 +28,18 @@ glm::dmat3 without_scale(glm::dmat3 m) {
 
 }  // namespace
 
-GltfNodes::GltfNodes(GltfDocument& document, std::vector<LeftOut>& left_out) : document_(document) {
+glm::dmat3 rotation_of(const double* q) {
+    const glm::dquat quaternion(q[3], q[0], q[1], q[2]);
+    return glm::length(quaternion) > 0.0 ? glm::mat3_cast(glm::normalize(quaternion)) : glm::dmat3(1.0);
+}
+
+GltfNodes::GltfNodes(GltfDocument& document, LeftOutList& left_out) : document_(document) {
     read_parts();
     read_parents();
     apply_animation(left_out);
     compose();
     find_shown();
+    note_other_scenes(left_out);
 }
 
 glm::dmat4 GltfNodes::Parts::to_parent() const {
@@ -63,7 +65,7 @@ void GltfNodes::read_parts() {
             parts.is_matrix = true;
         }
         if (const auto t = node.numbers("translation", 3); !t.empty()) parts.translation = glm::make_vec3(t.data());
-        if (const auto q = node.numbers("rotation", 4); !q.empty()) parts.rotation = rotation_of(q);
+        if (const auto q = node.numbers("rotation", 4); !q.empty()) parts.rotation = rotation_of(q.data());
         if (const auto s = node.numbers("scale", 3); !s.empty()) parts.scale = glm::make_vec3(s.data());
         if (node.has("weights")) weights_[i] = node.numbers("weights", node.list("weights").size());
         children_[i] = node.indices("children");
@@ -82,12 +84,12 @@ void GltfNodes::read_parents() {
     }
 }
 
-void GltfNodes::apply_animation(std::vector<LeftOut>& left_out) {
+void GltfNodes::apply_animation(LeftOutList& left_out) {
     const std::size_t animations = document_.count("animations");
     if (animations == 0) return;
     const JsonObject first = document_.element("animations", 0, "animation");
     for (const nlohmann::json& json : first.list("channels")) {
-        apply_channel(first, JsonObject(json, first.name() + ": a channel"));
+        apply_channel(first, JsonObject(json, first.name() + ": a channel"), left_out);
     }
     leave_out(left_out, animations > 1 ? "all animations but the first" : "the animation",
               animations > 1 ? "a picture shows one moment, the beginning of the first"
@@ -95,40 +97,44 @@ void GltfNodes::apply_animation(std::vector<LeftOut>& left_out) {
 }
 
 /// Takes the first key's value, which holds before it, too.
-void GltfNodes::apply_channel(const JsonObject& animation, const JsonObject& channel) {
+void GltfNodes::apply_channel(const JsonObject& animation, const JsonObject& channel, LeftOutList& left_out) {
     const JsonObject target = channel.object("target");
     const auto node = target.index("node");
     if (!node) return;  // of an extension
     json(*node);
+    const std::string path = target.text("path");
+    if (path != "translation" && path != "rotation" && path != "scale" && path != "weights") {
+        leave_out(left_out, "an animation of '" + excerpt(path) + "'", "such channels are unknown");
+        return;
+    }
     const std::size_t sampler_index = channel.needed("sampler");
     const nlohmann::json& samplers = animation.list("samplers");
     if (sampler_index >= samplers.size()) channel.fail("its sampler does not exist; the file is damaged");
     const JsonObject sampler(samplers[sampler_index], animation.name() + ": a sampler");
     const std::size_t output = sampler.needed("output");
     const std::size_t components = components_of(document_, output);
-    const std::vector<double> values = read_accessor(document_, output, components);
     // A cubic spline's keys are triples: incoming tangent, value, outgoing tangent.
     const bool is_cubic = sampler.text("interpolation", "LINEAR") == "CUBICSPLINE";
-    const std::string path = target.text("path");
-    const std::size_t keys = document_.element("accessors", sampler.needed("input"), "accessor").needed("count");
-    const std::size_t key_size = keys > 0 ? values.size() / keys : 0;
-    const std::size_t size = is_cubic ? key_size / 3 : key_size;
-    const std::size_t begin = is_cubic ? size : 0;
-    const std::size_t wanted = path == "rotation" ? 4 : 3;
-    if (size == 0 || (path != "weights" && size != wanted)) sampler.fail("its output has too few values");
-    const std::vector<double> value(values.begin() + static_cast<std::ptrdiff_t>(begin),
-                                    values.begin() + static_cast<std::ptrdiff_t>(begin + size));
+    const auto count_of = [&](std::size_t accessor) {
+        return document_.element("accessors", accessor, "accessor").needed("count");
+    };
+    const std::size_t keys = count_of(sampler.needed("input")) * (is_cubic ? 3 : 1);
+    // Weights are an element each; of others a key is one.
+    const std::size_t elements = keys > 0 ? count_of(output) / keys : 0;
+    const bool fits = path == "weights" ? components == 1 && elements > 0
+                                        : components == (path == "rotation" ? 4u : 3u) && elements == 1;
+    if (!fits) sampler.fail("its output has not one " + path + " for each key; correct it");
+    const std::vector<double> values = read_accessor(document_, output, components, (is_cubic ? 2 : 1) * elements);
+    const std::vector<double> value(values.end() - static_cast<std::ptrdiff_t>(elements * components), values.end());
     Parts& parts = parts_[*node];
     if (path == "weights") {
         weights_[*node] = value;
     } else if (path == "translation") {
         parts.translation = glm::make_vec3(value.data());
     } else if (path == "rotation") {
-        parts.rotation = rotation_of(value);
-    } else if (path == "scale") {
-        parts.scale = glm::make_vec3(value.data());
+        parts.rotation = rotation_of(value.data());
     } else {
-        return;
+        parts.scale = glm::make_vec3(value.data());
     }
     if (path != "weights" && parts.is_matrix) json(*node).fail("it is animated, so it may not have a matrix");
 }
@@ -165,7 +171,7 @@ void GltfNodes::compose() {
 std::vector<std::size_t> GltfNodes::roots() const {
     if (document_.count("scenes") > 0) {
         const JsonObject scene = document_.element("scenes", document_.root().whole_number("scene", 0), "scene");
-        const std::vector<std::size_t> roots = scene.indices("nodes");
+        std::vector<std::size_t> roots = scene.indices("nodes");
         for (const std::size_t root : roots) {
             json(root);
             if (parent_[root] != none) scene.fail("node " + std::to_string(root) + " is no root; correct `nodes`");
@@ -177,6 +183,35 @@ std::vector<std::size_t> GltfNodes::roots() const {
         if (parent_[i] == none) roots.push_back(i);
     }
     return roots;
+}
+
+/// Names scenes but the default one, and what hangs from no scene at all.
+void GltfNodes::note_other_scenes(LeftOutList& left_out) const {
+    const std::size_t scenes = document_.count("scenes");
+    if (scenes == 0) return;
+    const std::size_t shown = document_.root().whole_number("scene", 0);
+    std::vector<std::size_t> open;
+    for (std::size_t i = 0; i < scenes; ++i) {
+        const JsonObject scene = document_.element("scenes", i, "scene");
+        if (i != shown) leave_out(left_out, scene.name(), "the file's default scene is shown");
+        const nlohmann::json& nodes = scene.list("nodes");
+        for (const nlohmann::json& node : nodes) {
+            if (node.is_number_unsigned() && node.get<std::size_t>() < count()) open.push_back(node.get<std::size_t>());
+        }
+    }
+    std::vector<bool> reached(count());
+    while (!open.empty()) {
+        const std::size_t i = open.back();
+        open.pop_back();
+        if (reached[i]) continue;
+        reached[i] = true;
+        open.insert(open.end(), children_[i].begin(), children_[i].end());
+    }
+    for (std::size_t i = 0; i < count(); ++i) {
+        const JsonObject node = json(i);
+        const bool is_seen = node.has("mesh") || node.has("camera") || node.extension("KHR_lights_punctual");
+        if (!reached[i] && is_seen) leave_out(left_out, node.name(), "it is in no scene");
+    }
 }
 
 void GltfNodes::find_shown() {

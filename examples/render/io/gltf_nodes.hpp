@@ -4,6 +4,7 @@
 #include <limits>
 #include <vector>
 
+#include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
@@ -12,13 +13,16 @@
 
 namespace render {
 
+/// The rotation of quaternion x, y, z, w of any length; none if that is 0.
+glm::dmat3 rotation_of(const double* quaternion);
+
 /// The nodes of a glTF file: a forest, of which the default scene shows some. Where the file has animations, nodes
 /// stand as the first one begins.
 class GltfNodes {
 public:
     /// Names what is left out. throws: invalid_input if a node has two parents or is its own ancestor, if a transform
     /// has not as many numbers as it should, or if the scene or an animation refers to what is not there.
-    GltfNodes(GltfDocument& document, std::vector<LeftOut>& left_out);
+    GltfNodes(GltfDocument& document, LeftOutList& left_out);
 
     /// Those that are shown, parents before their children.
     const std::vector<std::size_t>& shown() const { return shown_; }
@@ -51,10 +55,11 @@ private:
 
     void read_parts();
     void read_parents();
-    void apply_animation(std::vector<LeftOut>& left_out);
-    void apply_channel(const JsonObject& animation, const JsonObject& channel);
+    void apply_animation(LeftOutList& left_out);
+    void apply_channel(const JsonObject& animation, const JsonObject& channel, LeftOutList& left_out);
     void compose();
     void find_shown();
+    void note_other_scenes(LeftOutList& left_out) const;
     std::vector<std::size_t> roots() const;
 
     static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();

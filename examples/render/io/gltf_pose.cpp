@@ -1,17 +1,21 @@
 #include "io/gltf_pose.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
-#include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>
+#include <lightcuts/core/invalid_input.hpp>
 
 #include "io/gltf_accessor.hpp"
 
 namespace render {
 namespace {
+
+/// Joints are indices of 16 bits.
+constexpr double most_joints = 65535.0;
 
 template <class V>
 void add(std::vector<V>& to, const std::vector<V>& difference, double weight) {
@@ -56,31 +60,41 @@ const std::vector<glm::dmat4>& GltfSkins::joints(std::size_t index) {
 }
 
 std::vector<glm::dmat4> GltfSkins::to_world(std::size_t index, const GltfPrimitive& primitive) {
+    if (!primitive.bones_problem.empty()) throw lightcuts::invalid_input(primitive.bones_problem);
     const std::vector<glm::dmat4>& matrices = joints(index);
-    std::vector<glm::dmat4> result;
-    result.reserve(primitive.positions.size());
+    std::vector<bool> is_used(primitive.positions.size());
+    for (const glm::uvec3& t : primitive.triangles) is_used[t.x] = is_used[t.y] = is_used[t.z] = true;
+    // Where vertices of no triangle go is of no matter, as long as they stay near the others.
+    std::vector<glm::dmat4> result(primitive.positions.size(), matrices.empty() ? glm::dmat4(1.0) : matrices.front());
     for (std::size_t v = 0; v < primitive.positions.size(); ++v) {
-        glm::dmat4 sum(0.0);
-        double weights = 0.0;
-        for (const std::vector<GltfBones>& set : primitive.bones) {
-            for (std::size_t k = 0; k < 4; ++k) {
-                const double weight = set[v].weights[k];
-                if (weight == 0.0) continue;
-                if (set[v].joints[k] >= matrices.size()) {
-                    document_.element("skins", index, "skin")
-                        .fail(primitive.name + " has a vertex of joint " + std::to_string(set[v].joints[k]) +
-                              ", which does not exist");
-                }
-                sum += weight * matrices[set[v].joints[k]];
-                weights += weight;
-            }
-        }
-        if (!(weights > 0.0)) {
-            document_.element("skins", index, "skin").fail(primitive.name + " has a vertex that no joint moves");
-        }
-        result.push_back(sum / weights);
+        if (is_used[v]) result[v] = blend(index, primitive, v, matrices);
     }
     return result;
+}
+
+glm::dmat4 GltfSkins::blend(std::size_t index, const GltfPrimitive& primitive, std::size_t vertex,
+                            const std::vector<glm::dmat4>& matrices) const {
+    const auto fail = [&](const std::string& problem) {
+        document_.element("skins", index, "skin").fail(primitive.name + " has " + problem);
+    };
+    glm::dmat4 sum(0.0);
+    double weights = 0.0;
+    for (const std::vector<GltfBones>& set : primitive.bones) {
+        for (std::size_t k = 0; k < 4; ++k) {
+            const double weight = set[vertex].weights[k];
+            if (weight == 0.0) continue;
+            if (weight < 0.0) fail("a vertex with a negative weight; the file is damaged");
+            const double joint = set[vertex].joints[k];
+            if (!(joint >= 0.0 && joint <= most_joints)) fail("a vertex of which a joint is no index");
+            if (joint >= static_cast<double>(matrices.size())) {
+                fail("a vertex of joint " + std::to_string(std::lround(joint)) + ", which does not exist");
+            }
+            sum += weight * matrices[static_cast<std::size_t>(joint)];
+            weights += weight;
+        }
+    }
+    if (!(weights > 0.0)) fail("a vertex that no joint moves");
+    return sum / weights;
 }
 
 std::vector<glm::dmat4> instances_of(GltfDocument& document, const JsonObject& node) {
@@ -91,7 +105,11 @@ std::vector<glm::dmat4> instances_of(GltfDocument& document, const JsonObject& n
         const auto accessor = attributes.index(name);
         if (!accessor) return std::vector<double>();
         if (!has_data(document, *accessor)) attributes.fail(std::string(name) + " holds no data; export it again");
-        return read_accessor(document, *accessor, components);
+        try {
+            return read_accessor(document, *accessor, components);
+        } catch (const lightcuts::invalid_input& problem) {
+            attributes.fail(std::string(name) + ": " + problem.what());
+        }
     };
     const std::vector<double> translations = read("TRANSLATION", 3);
     const std::vector<double> rotations = read("ROTATION", 4);
@@ -105,11 +123,7 @@ std::vector<glm::dmat4> instances_of(GltfDocument& document, const JsonObject& n
     for (std::size_t i = 0; i < count; ++i) {
         glm::dmat4& m = result[i];
         if (!translations.empty()) m = glm::translate(m, glm::make_vec3(&translations[3 * i]));
-        if (!rotations.empty()) {
-            const double* q = &rotations[4 * i];
-            const glm::dquat rotation(q[3], q[0], q[1], q[2]);
-            if (glm::length(rotation) > 0.0) m = m * glm::mat4_cast(glm::normalize(rotation));
-        }
+        if (!rotations.empty()) { m = m * glm::dmat4(rotation_of(&rotations[4 * i])); }
         if (!scales.empty()) m = glm::scale(m, glm::make_vec3(&scales[3 * i]));
     }
     return result;

@@ -22,11 +22,15 @@ public:
     GltfSkins(GltfDocument& document, const GltfNodes& nodes) : document_(document), nodes_(nodes) {}
 
     /// For each vertex of a primitive that skin `index` moves, its transform to the world: the mean of its joints' by
-    /// weight. throws: invalid_input if the skin or a joint does not exist, or a vertex has no weight at all.
+    /// weight. throws: invalid_input if the skin or a joint does not exist, or a vertex of a triangle has no weight at
+    /// all.
     std::vector<glm::dmat4> to_world(std::size_t index, const GltfPrimitive& primitive);
 
 private:
     const std::vector<glm::dmat4>& joints(std::size_t index);
+    /// Of one vertex.
+    glm::dmat4 blend(std::size_t index, const GltfPrimitive& primitive, std::size_t vertex,
+                     const std::vector<glm::dmat4>& matrices) const;
 
     GltfDocument& document_;
     const GltfNodes& nodes_;
@@ -34,7 +38,7 @@ private:
 };
 
 /// Where the instances of a node that has EXT_mesh_gpu_instancing stand, in the node's coordinates.
-/// throws: invalid_input naming the node if their attributes differ in length.
+/// throws: invalid_input naming the node if their attributes differ in length or are not finite.
 std::vector<glm::dmat4> instances_of(GltfDocument& document, const JsonObject& node);
 
 }  // namespace render

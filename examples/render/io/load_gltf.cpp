@@ -14,6 +14,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 #include <lightcuts/core/invalid_input.hpp>
+#include <lightcuts/core/vector.hpp>
 
 #include "escape.hpp"
 #include "io/gltf_document.hpp"
@@ -70,7 +71,7 @@ private:
             const std::optional<GltfPrimitive> posed = is_morphed ? std::optional(morphed(stored, weights))
                                                                   : std::nullopt;
             const GltfPrimitive& primitive = posed ? *posed : stored;
-            if (skin && !primitive.bones.empty()) {
+            if (skin && (!primitive.bones.empty() || !primitive.bones_problem.empty())) {
                 // A skinned mesh ignores where its own node is.
                 const std::vector<glm::dmat4> to_world = skins_.to_world(*skin, primitive);
                 add_primitive(primitive, [&](std::size_t v) -> const glm::dmat4& { return to_world[v]; });
@@ -205,6 +206,7 @@ private:
                                 name.empty() ? "light " + std::to_string(index) : "light '" + excerpt(name) + "'");
         const float brightness = source.number_in("intensity", 1.0f, 0.0f, std::numeric_limits<float>::max());
         const glm::vec3 intensity = source.color("color", glm::vec3(1.0f)) * brightness;
+        if (!lightcuts::is_finite(intensity)) source.fail("its intensity times its color is too large; correct it");
         const glm::vec3 position(glm::dvec3(nodes_.to_world(node)[3]) - scene_.origin);
         if (source.has("range")) {
             leave_out(scene_.left_out, "the range of lights", "light falls off with the square of the distance");

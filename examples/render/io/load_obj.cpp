@@ -73,6 +73,7 @@ private:
     void add_face(const ObjFace& face) {
         const std::uint32_t material = materials_.in_scene(face.material);
         const std::span<const ObjCorner> corners(&geometry_.corners[face.first], face.count);
+        if (corners.front().uv == ObjCorner::none) materials_.note_no_uv(material);
         const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
             // In braces, so that vertices are numbered in this order by every compiler.
             scene_.triangles.push_back(glm::uvec3{vertex(corners[a]), vertex(corners[b]), vertex(corners[c])});

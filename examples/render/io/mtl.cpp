@@ -2,14 +2,16 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include <glm/common.hpp>
+#include <lightcuts/core/invalid_input.hpp>
 
 #include "escape.hpp"
 #include "io/obj_lines.hpp"
+#include "reflectance.hpp"
 #include "text_file.hpp"
 
 namespace render {
@@ -47,13 +49,6 @@ constexpr std::array ignored_keywords{
     IgnoredKeyword{"anisor", not_supported},
 };
 
-std::string in_lower_case(std::string_view text) {
-    std::string result(text);
-    std::transform(result.begin(), result.end(), result.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return result;
-}
-
 /// Linear Rec. 709 of CIE coordinates; what a display cannot show is cut off.
 glm::vec3 rgb_of_xyz(const glm::dvec3& v) {
     return glm::max(glm::vec3(glm::dvec3(3.2404542 * v.x - 1.5371385 * v.y - 0.4985314 * v.z,
@@ -70,7 +65,7 @@ public:
         ObjStatement statement;
         while (lines.next(statement)) {
             line_ = statement.line;
-            parse(in_lower_case(statement.keyword), statement);
+            parse(statement);
         }
     }
 
@@ -79,15 +74,24 @@ public:
 private:
     [[noreturn]] void fail(const std::string& problem) const { fail_at(library_.path, line_, problem); }
 
-    void parse(const std::string& keyword, const ObjStatement& statement) {
+    void parse(const ObjStatement& statement) {
+        const std::string keyword = in_lower_case(statement.keyword);
         if (keyword == "newmtl") {
             MtlMaterial& material = library_.materials.emplace_back();
             material.name = statement.rest;
             material.line = line_;
+            unknown_.clear();
             return;
         }
-        if (library_.materials.empty()) return;  // belongs to no material
-        MtlMaterial& m = library_.materials.back();
+        // What belongs to no material says nothing; nobody needs the rest of one that cannot be used.
+        if (library_.materials.empty() || !material().problem.empty()) return;
+        try {
+            parse(keyword, statement);
+        } catch (const lightcuts::invalid_input& problem) { material().problem = problem.what(); }
+    }
+
+    void parse(const std::string& keyword, const ObjStatement& statement) {
+        MtlMaterial& m = material();
         if (keyword == "kd") {
             m.diffuse = reflectance(statement);
         } else if (keyword == "ks") {
@@ -125,14 +129,13 @@ private:
         const auto known = std::find_if(ignored_keywords.begin(), ignored_keywords.end(),
                                         [&](const IgnoredKeyword& k) { return k.keyword == keyword; });
         if (known == ignored_keywords.end()) {
-            if (!std::exchange(knows_unknown_, true)) {
-                leave_out(library_.left_out, "'" + excerpt(as_written) + "' in " + place(),
-                          "such statements are unknown");
-            }
+            if (unknown_.insert(keyword).second) material().unknown.push_back({std::string(as_written), line_});
         } else if (known->why) {
-            leave_out(library_.left_out, std::string(as_written) + " of materials", known->why);
+            leave_out(material().left_out, std::string(as_written) + " of materials", known->why);
         }
     }
+
+    MtlMaterial& material() { return library_.materials.back(); }
 
     std::string place() const { return library_.path.filename().string() + ":" + std::to_string(line_); }
 
@@ -153,7 +156,7 @@ private:
     float dissolve(const ObjStatement& statement) {
         split_before_comment(statement.rest, words_);
         if (!words_.empty() && words_[0] == "-halo") {
-            leave_out(library_.left_out, "-halo of materials", "cover does not depend on the angle of view");
+            leave_out(material().left_out, "-halo of materials", "cover does not depend on the angle of view");
             words_.erase(words_.begin());
         }
         if (words_.empty()) fail("'d' needs a number; the line is broken or cut off");
@@ -177,12 +180,9 @@ private:
     }
 
     glm::vec3 reflectance(const ObjStatement& statement) {
-        const glm::vec3 v = color(statement);
-        if (v.x > 1.0f || v.y > 1.0f || v.z > 1.0f) {
-            leave_out(library_.left_out, "what is above 1 of " + std::string(statement.keyword) + " in " + place(),
-                      "a surface reflects no more than it gets");
-        }
-        return glm::min(v, glm::vec3(1.0f));
+        glm::vec3 v = color(statement);
+        clip_reflectance(v, std::string(statement.keyword) + " in " + place(), material().left_out);
+        return v;
     }
 
     /// Options, then the name of a file, which may have blanks.
@@ -211,7 +211,7 @@ private:
             map.scale = take_pair(1.0);
         } else if (option == "-t") {
             take_pair(0.0);
-            leave_out(library_.left_out, "-t of maps", "textures have no turbulence");
+            leave_out(material().left_out, "-t of maps", "textures have no turbulence");
         } else if (option == "-mm") {
             map.base = take_number();
             map.gain = take_number();
@@ -219,13 +219,12 @@ private:
             map.clamp = take_word() == "on";
         } else if (option == "-imfchan") {
             const std::string_view channel = take_word();
-            map.channel = channel.empty() ? '\0'
-                                          : static_cast<char>(std::tolower(static_cast<unsigned char>(channel[0])));
+            map.channel = channel.empty() ? '\0' : in_lower_case(channel.substr(0, 1))[0];
         } else if (option == "-blendu" || option == "-blendv" || option == "-cc" || option == "-texres") {
             take_word();  // how a texture is filtered or coded
         } else if (option == "-boost" || option == "-bm" || option == "-type") {
             take_word();
-            leave_out(library_.left_out, option + " of maps", not_supported);
+            leave_out(material().left_out, option + " of maps", not_supported);
         } else {
             return false;
         }
@@ -268,7 +267,7 @@ private:
     std::size_t line_ = 0;
     std::vector<std::string_view> words_;
     std::string_view rest_;
-    bool knows_unknown_ = false;
+    std::set<std::string> unknown_;  ///< keywords of the last material
 };
 
 }  // namespace

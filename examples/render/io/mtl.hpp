@@ -26,12 +26,18 @@ struct MtlMap {
     char channel = '\0';  ///< -imfchan r, g, b, m (matte), l (luminance) or z; 0: not given
 };
 
+/// A keyword that is unknown.
+struct MtlUnknown {
+    std::string keyword;  ///< as it is written
+    std::size_t line = 0;
+};
+
 /// A material as an MTL file states it; what is not there is empty.
 struct MtlMaterial {
     std::string name;
     std::size_t line = 0;
-    std::optional<glm::vec3> diffuse;    ///< Kd, each at most 1
-    std::optional<glm::vec3> specular;   ///< Ks, likewise
+    std::optional<glm::vec3> diffuse;    ///< Kd, each at most 1, as the others that reflect
+    std::optional<glm::vec3> specular;   ///< Ks
     std::optional<glm::vec3> emission;   ///< Ke
     std::optional<glm::vec3> filter;     ///< Tf
     std::optional<float> exponent;       ///< Ns
@@ -44,18 +50,21 @@ struct MtlMaterial {
     std::optional<MtlMap> emission_map;  ///< map_Ke
     std::optional<MtlMap> dissolve_map;  ///< map_d
     std::optional<MtlMap> normal_map;    ///< norm
+    LeftOutList left_out;
+    std::vector<MtlUnknown> unknown;  ///< each keyword once
+    /// What makes the material unusable, with file and line; empty: nothing. What follows it is not read.
+    std::string problem;
 };
 
 /// What an MTL file says. Every number is finite.
 struct MtlLibrary {
     std::filesystem::path path;
     std::vector<MtlMaterial> materials;
-    std::vector<LeftOut> left_out;
 };
 
 /// Reads an MTL file. Keywords may be in upper or lower case; a colour may be one number, for all three, or `xyz` and
-/// CIE coordinates. throws: invalid_input with file and line for a number that is none, not finite or negative, a
-/// colour of two numbers, or a spectral file.
+/// CIE coordinates. A number that is none, not finite or negative, a colour of two numbers, and a spectral file are
+/// problems of their material. throws: invalid_input if it is UTF-16.
 MtlLibrary parse_mtl(const std::filesystem::path& path, std::string_view text);
 
 }  // namespace render

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "escape.hpp"
@@ -86,8 +87,7 @@ private:
     }
 
     void note_unknown(std::string_view keyword) {
-        if (knows_unknown_) return;
-        knows_unknown_ = true;
+        if (!unknown_.emplace(keyword).second) return;
         leave_out(geometry_.left_out, "'" + excerpt(keyword) + "' in line " + std::to_string(line_),
                   "such statements are unknown");
     }
@@ -114,12 +114,18 @@ private:
         read_numbers("v", text, 3);
         require_room(geometry_.positions.size());
         geometry_.positions.emplace_back(numbers_[0], numbers_[1], numbers_[2]);
-        // Four numbers are a position with a weight, which polygons ignore.
-        if (numbers_.size() >= 6) {
+        const std::size_t count = numbers_.size();
+        if (count == 6) {
             geometry_.colors.resize(geometry_.positions.size() - 1, glm::vec3(1.0f));
             geometry_.colors.emplace_back(numbers_[3], numbers_[4], numbers_[5]);
             const bool negative = numbers_[3] < 0.0 || numbers_[4] < 0.0 || numbers_[5] < 0.0;
             if (negative) fail("a vertex has a negative colour; correct it");
+        } else if (count > 4 && !std::exchange(has_odd_position_, true)) {
+            // The fourth of four is a weight, which polygons ignore.
+            leave_out(geometry_.left_out,
+                      "what follows x y z of 'v' lines of " + std::to_string(count) + " numbers, such as line " +
+                          std::to_string(line_),
+                      "only x y z w and x y z r g b say which number is what");
         }
     }
 
@@ -247,7 +253,8 @@ private:
     LargestIndex largest_normal_{"normal"};
     std::map<std::string, std::int32_t> material_of_;
     std::int32_t material_ = -1;
-    bool knows_unknown_ = false;
+    bool has_odd_position_ = false;
+    std::set<std::string> unknown_;
 };
 
 }  // namespace

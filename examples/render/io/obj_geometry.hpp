@@ -47,7 +47,7 @@ struct ObjGeometry {
     std::vector<ObjName> materials;    ///< of `usemtl`, each name once
     std::vector<ObjName> libraries;    ///< what stands behind `mtllib`, a line each
     std::size_t first_short_face = 0;  ///< line of the first face of less than three vertices, which are left out
-    std::vector<LeftOut> left_out;
+    LeftOutList left_out;
 };
 
 /// Reads an OBJ file. Names stand as in the file, with comments and quotes. `path` is for messages.

@@ -1,6 +1,7 @@
 #include "io/obj_materials.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include <glm/common.hpp>
 #include <lightcuts/core/invalid_input.hpp>
@@ -8,6 +9,7 @@
 #include "escape.hpp"
 #include "io/obj_lines.hpp"
 #include "luminance.hpp"
+#include "reflectance.hpp"
 #include "text_file.hpp"
 #include "texture.hpp"
 
@@ -35,22 +37,14 @@ void make_mask(Texture& texture, char channel) {
     }
 }
 
-/// Base and gain of -mm.
+/// Base and gain of -mm; what a float cannot hold is cut off.
 void modify_range(Texture& texture, double base, double gain) {
+    constexpr auto most = static_cast<double>(std::numeric_limits<float>::max());
     for (glm::vec4& t : texture.texels) {
         for (int c = 0; c < 3; ++c) {
-            t[c] = static_cast<float>(std::max(0.0, base + gain * static_cast<double>(t[c])));
+            t[c] = static_cast<float>(std::clamp(base + gain * static_cast<double>(t[c]), 0.0, most));
         }
     }
-}
-
-bool clip_to_one(Texture& texture) {
-    bool any = false;
-    for (glm::vec4& t : texture.texels) {
-        any = any || t.r > 1.0f || t.g > 1.0f || t.b > 1.0f;
-        t = glm::min(t, glm::vec4(1.0f));
-    }
-    return any;
 }
 
 /// OBJ's v runs upwards, a texture's downwards.
@@ -68,6 +62,7 @@ ObjMaterials::ObjMaterials(std::filesystem::path obj, const ObjGeometry& geometr
                            Scene& scene)
     : obj_(std::move(obj)), geometry_(geometry), files_(files), scene_(scene), added_(geometry.materials.size()) {
     for (const ObjName& names : geometry.libraries) read_libraries(names);
+    if (!missing_.empty()) replace_missing_libraries();
 }
 
 void ObjMaterials::read_libraries(const ObjName& names) {
@@ -89,6 +84,11 @@ std::vector<std::filesystem::path> ObjMaterials::find_libraries(const ObjName& n
     std::vector<std::string_view> words;
     split_before_comment(names.name, words);
     if (words.empty()) fail_at(obj_, names.line, "'mtllib' names no file; name one or remove the line");
+    std::string_view missing;
+    const auto note_missing = [&] {
+        if (!missing.empty()) missing_.push_back({std::string(missing), names.line});
+        missing = {};
+    };
     for (std::size_t begin = 0; begin < words.size();) {
         std::optional<std::filesystem::path> path;
         std::size_t end = words.size();
@@ -96,27 +96,44 @@ std::vector<std::filesystem::path> ObjMaterials::find_libraries(const ObjName& n
             const char* last = words[end - 1].data() + words[end - 1].size();
             path = files_.find(folder, {words[begin].data(), static_cast<std::size_t>(last - words[begin].data())});
         }
-        if (!path) return {library_of_same_name(names, words.size() == 1 ? words[begin] : names.name)};
-        found.push_back(*path);
-        begin = end + 1;
+        if (path) {
+            note_missing();
+            found.push_back(*path);
+            begin = end + 1;
+            continue;
+        }
+        // Words in a row that lead nowhere may be one name.
+        const char* first = missing.empty() ? words[begin].data() : missing.data();
+        missing = {first, static_cast<std::size_t>(words[begin].data() + words[begin].size() - first)};
+        ++begin;
     }
+    note_missing();
     return found;
 }
 
-/// The library that has the name of the OBJ file itself, where the one that is named is missing.
-std::filesystem::path ObjMaterials::library_of_same_name(const ObjName& names, std::string_view missing) {
-    const std::string name = "the material library '" + excerpt(missing) + "'";
-    const auto path = files_.find(obj_.parent_path(), obj_.stem().string() + ".mtl");
-    if (!path) fail_at(obj_, names.line, name + " is not there; put it beside the OBJ file or remove the line");
-    leave_out(scene_.left_out, name, "it is not there; " + path->filename().string() + " is used");
-    return *path;
+/// Names the libraries that are not there. Where the others lack a material, one that has the name of the OBJ file
+/// itself is read last.
+void ObjMaterials::replace_missing_libraries() {
+    const bool lacks = std::any_of(geometry_.materials.begin(), geometry_.materials.end(),
+                                   [&](const ObjName& use) { return !use.name.empty() && !find(use.name); });
+    std::string why = "it is not there";
+    if (lacks) {
+        if (const auto path = files_.find(obj_.parent_path(), obj_.stem().string() + ".mtl")) {
+            why += "; " + path->filename().string() + " is used for what the others lack";
+            const bool known = std::any_of(libraries_.begin(), libraries_.end(),
+                                           [&](const MtlLibrary& library) { return library.path == *path; });
+            if (!known) read_library(*path);
+        }
+    }
+    for (const ObjName& name : missing_) {
+        leave_out(scene_.left_out, "the material library '" + excerpt(name.name) + "'", why);
+    }
 }
 
 void ObjMaterials::read_library(const std::filesystem::path& path) {
     const std::size_t place = libraries_.size();
     libraries_.push_back(parse_mtl(path, files_.read(path)));
     const MtlLibrary& library = libraries_.back();
-    for (const LeftOut& item : library.left_out) leave_out(scene_.left_out, item.what, item.why);
     // The first of a name counts. One that has a comment behind it can be used with or without.
     for (std::size_t i = 0; i < library.materials.size(); ++i)
         by_name_.try_emplace(library.materials[i].name, place, i);
@@ -142,17 +159,51 @@ std::uint32_t ObjMaterials::add(const ObjName& use) {
     const auto* place = find(use.name);
     if (!place) {
         if (use.name.empty()) return add_default();
+        const std::string name = "the material '" + excerpt(use.name) + "'";
+        if (!missing_.empty()) {
+            fail_at(obj_, missing_.front().line,
+                    "the material library '" + excerpt(missing_.front().name) + "' is not there, and no other has " +
+                        name + " of line " + std::to_string(use.line) + "; put it beside the OBJ file");
+        }
         if (libraries_.empty()) {
             leave_out(scene_.left_out, "materials", "the OBJ file names no library with 'mtllib'");
             return add_default();
         }
-        fail_at(obj_, use.line,
-                "the material '" + excerpt(use.name) + "' is in no library; add it or correct the name");
+        fail_at(obj_, use.line, name + " is in no library; add it or correct the name");
     }
     const MtlLibrary& library = libraries_[place->first];
     library_ = library.path;
-    scene_.materials.push_back(convert(library.materials[place->second]));
+    const MtlMaterial& source = library.materials[place->second];
+    if (!source.problem.empty()) throw lightcuts::invalid_input(source.problem);
+    name_left_out(source);
+    scene_.materials.push_back(convert(source));
     return static_cast<std::uint32_t>(scene_.materials.size() - 1);
+}
+
+void ObjMaterials::name_left_out(const MtlMaterial& source) {
+    for (const LeftOut& item : source.left_out) leave_out(scene_.left_out, item.what, item.why);
+    const std::string file = library_.filename().string();
+    for (const MtlUnknown& unknown : source.unknown) {
+        if (!unknown_.emplace(library_, in_lower_case(unknown.keyword)).second) continue;
+        leave_out(scene_.left_out, "'" + excerpt(unknown.keyword) + "' in " + file + ":" + std::to_string(unknown.line),
+                  "such statements are unknown");
+    }
+    for (const auto* map : {&source.diffuse_map, &source.specular_map, &source.emission_map, &source.normal_map}) {
+        if (*map && (*map)->channel != '\0') {
+            leave_out(scene_.left_out, "-imfchan in " + file + ":" + std::to_string((*map)->line),
+                      "only of map_d one channel is used");
+        }
+    }
+}
+
+void ObjMaterials::note_no_uv(std::uint32_t material) {
+    lacks_uv_.resize(scene_.materials.size());
+    if (lacks_uv_[material]) return;
+    lacks_uv_[material] = true;
+    const Material& m = scene_.materials[material];
+    const auto uses = textures_of(m);
+    if (std::none_of(uses.begin(), uses.end(), [](const TextureUse* use) { return use->is_there(); })) return;
+    leave_out(scene_.left_out, "where on some faces of '" + m.name + "' its textures lie", "they have no vt");
 }
 
 std::uint32_t ObjMaterials::add_default() {
@@ -181,19 +232,47 @@ void ObjMaterials::convert_model(const MtlMaterial& source, Material& m) {
     const int illumination = source.illumination.value_or(2);
     m.exponent = source.exponent.value_or(1.0f);
     m.base_alpha = std::min(source.dissolve.value_or(1.0f - std::min(source.transparency.value_or(0.0f), 1.0f)), 1.0f);
-    if (illumination == 5) {
-        m.model = Material::Model::mirror;
-        m.base_color = source.specular.value_or(black);
-        return;
+    const bool is_tinted = source.filter && *source.filter != black && *source.filter != white;
+    if (illumination != 7 && is_tinted) leave_out(scene_.left_out, "Tf of '" + m.name + "'", "glass is illum 7");
+    switch (illumination) {
+        case 5: return convert_mirror(source, m);
+        case 7: return convert_glass(source, m);
+        default: return convert_phong(source, illumination, m);
     }
-    if (illumination == 7) {
-        const glm::vec3 filter = source.filter.value_or(black);
-        m.model = Material::Model::glass;
-        m.base_color = filter == black ? white : filter;
-        m.ior = source.ior.value_or(1.0f);
-        m.transmission = 1.0f;
-        return;
+}
+
+void ObjMaterials::convert_mirror(const MtlMaterial& source, Material& m) {
+    m.model = Material::Model::mirror;
+    m.base_color = source.specular.value_or(source.specular_map ? white : black);
+    if (m.base_color != black) m.base_color_texture = texture(source.specular_map, Role::opaque_color);
+    if (source.diffuse.value_or(black) != black || source.diffuse_map) {
+        leave_out(scene_.left_out, "Kd and map_Kd of '" + m.name + "'", "a mirror, illum 5, reflects by Ks alone");
     }
+    convert_cover(source, m);
+}
+
+void ObjMaterials::convert_glass(const MtlMaterial& source, Material& m) {
+    const glm::vec3 filter = source.filter.value_or(black);
+    m.model = Material::Model::glass;
+    m.base_color = filter == black ? white : filter;
+    m.ior = source.ior.value_or(1.0f);
+    m.transmission = 1.0f;
+    std::string ignored;
+    const auto ignore = [&](bool is_there, const char* keyword) {
+        if (is_there) ignored += (ignored.empty() ? "" : ", ") + std::string(keyword);
+    };
+    ignore(source.diffuse.value_or(black) != black, "Kd");
+    ignore(source.diffuse_map.has_value(), "map_Kd");
+    ignore(source.specular.value_or(black) != black && source.specular.value_or(black) != white, "Ks");
+    ignore(source.specular_map.has_value(), "map_Ks");
+    ignore(m.base_alpha < 1.0f, source.dissolve ? "d" : "Tr");
+    ignore(source.dissolve_map.has_value(), "map_d");
+    m.base_alpha = 1.0f;
+    if (ignored.empty()) return;
+    leave_out(scene_.left_out, ignored + " of '" + m.name + "'", "glass, illum 7, is told by Ni and Tf alone");
+}
+
+void ObjMaterials::convert_phong(const MtlMaterial& source, int illumination, Material& m) {
     if (illumination > 2) {
         leave_out(scene_.left_out, "reflection or refraction of illum " + std::to_string(illumination),
                   "mirrors are illum 5, glass is illum 7");
@@ -201,9 +280,14 @@ void ObjMaterials::convert_model(const MtlMaterial& source, Material& m) {
     m.model = Material::Model::phong;
     m.base_color = source.diffuse.value_or(source.diffuse_map ? white : black);
     m.base_color_texture = texture(source.diffuse_map, Role::color);
+    const glm::vec3 specular = source.specular.value_or(source.specular_map ? white : black);
     if (illumination >= 2 && m.exponent > 0.0f) {
-        m.specular = source.specular.value_or(source.specular_map ? white : black);
-        if (m.specular != black) m.specular_texture = texture(source.specular_map, Role::color);
+        m.specular = specular;
+        if (m.specular != black) m.specular_texture = texture(source.specular_map, Role::opaque_color);
+    } else if (illumination < 2 && source.specular_map) {
+        leave_out(scene_.left_out, "map_Ks of '" + m.name + "'", "illum 0 and 1 have no gloss");
+    } else if (illumination >= 2 && specular != black) {
+        leave_out(scene_.left_out, "Ks of '" + m.name + "'", "where Ns is 0, there is no gloss");
     }
     convert_cover(source, m);
 }
@@ -220,14 +304,24 @@ TextureUse ObjMaterials::texture(const std::optional<MtlMap>& map, Role role) {
     return {load_texture(*map, role), 0, transform_of(*map)};
 }
 
-std::filesystem::path ObjMaterials::path_of(const MtlMap& map) const {
-    // Beside the library or the OBJ file; exporters write paths of their author's disk, too.
-    const std::size_t separator = map.file.find_last_of("/\\");
-    const std::string last = separator == std::string::npos ? map.file : map.file.substr(separator + 1);
-    for (const std::string_view name :
-         {std::string_view(map.file), without_comment(map.file), std::string_view(last)}) {
+std::filesystem::path ObjMaterials::path_of(const MtlMap& map) {
+    const auto find = [&](std::string_view name) -> std::optional<std::filesystem::path> {
         for (const std::filesystem::path& folder : {library_.parent_path(), obj_.parent_path()}) {
-            if (const auto path = files_.find(folder, name)) return *path;
+            if (auto path = files_.find(folder, name)) return path;
+        }
+        return std::nullopt;
+    };
+    // Beside the library or the OBJ file.
+    for (const std::string_view name : {std::string_view(map.file), without_comment(map.file)}) {
+        if (const auto path = find(name)) return *path;
+    }
+    // Exporters write paths of their author's disk, too.
+    const std::size_t separator = map.file.find_last_of("/\\");
+    if (separator != std::string::npos) {
+        if (const auto path = find(std::string_view(map.file).substr(separator + 1))) {
+            leave_out(scene_.left_out, "the folder of the texture '" + excerpt(map.file) + "'",
+                      "the file is not there; one of the same name beside the scene is used");
+            return *path;
         }
     }
     if (map.file.find('\0') != std::string::npos) {
@@ -240,18 +334,27 @@ int ObjMaterials::load_texture(const MtlMap& map, Role role) {
     const std::filesystem::path path = path_of(map);
     const auto [entry, is_new] = textures_.try_emplace(
         TextureKey{path, role, map.base, map.gain, map.channel, map.clamp}, static_cast<int>(scene_.textures.size()));
-    if (!is_new) return entry->second;
-    const bool is_color = role == Role::color || role == Role::emission;
-    Texture texture = texture_of_bytes(files_.read(path), path.string(), is_color);
+    if (is_new) scene_.textures.push_back(read_map(path, map, role));
+    return entry->second;
+}
+
+Texture ObjMaterials::read_map(const std::filesystem::path& path, const MtlMap& map, Role role) {
+    const bool is_color = role == Role::color || role == Role::opaque_color || role == Role::emission;
+    const bool is_radiance = role == Role::emission;
+    Texture texture;
+    try {
+        texture = texture_of_bytes(files_.read(path), path.string(), is_color,
+                                   is_radiance ? Premultiplication::keep : Premultiplication::undo);
+    } catch (const lightcuts::invalid_input& problem) { fail_at(library_, map.line, problem.what()); }
+    texture.name = path.filename().string();
     if (map.base != 0.0 || map.gain != 1.0) modify_range(texture, map.base, map.gain);
     if (role == Role::alpha) make_mask(texture, map.channel);
-    if (role != Role::emission && clip_to_one(texture)) {
-        leave_out(scene_.left_out, "what is above 1 of the texture '" + path.filename().string() + "'",
-                  "a surface reflects no more than it gets");
+    if (role == Role::opaque_color) {
+        for (glm::vec4& texel : texture.texels) texel.a = 1.0f;
     }
+    if (!is_radiance) clip_reflectance(texture, scene_.left_out);
     if (map.clamp) texture.wrap_u = texture.wrap_v = Texture::Wrap::clamp;
-    scene_.textures.push_back(std::move(texture));
-    return entry->second;
+    return texture;
 }
 
 }  // namespace render

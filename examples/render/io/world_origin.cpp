@@ -6,65 +6,175 @@
 #include <limits>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "triangle.hpp"
 
 namespace render {
 namespace {
 
-double largest(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
-
-/// Scenes that are farther away than so many times their size are moved.
+/// Scenes that are farther away than so many times their size may be moved.
 constexpr double far = 8.0;
-/// Where the step of a float is more than this share of a triangle, its shape is lost.
-constexpr double coarse_share = 1e-2;
+/// Where rays leave a triangle by this share of its size, its shadows are lost.
+constexpr double lost_share = 0.02;
+/// Where rays leave a triangle by more than this share of its size, light passes what stands on it.
+constexpr double coarse_share = 0.1;
 /// Of so many of a scene's triangles a person should know.
 constexpr double many = 0.01;
+/// And of any that is so many times the scene's size away.
+constexpr double stray = 1000.0;
 
-void note_coarse_coordinates(Scene& scene, std::span<const glm::dvec3> positions) {
+struct Corners {
+    glm::dvec3 a, b, c;
+
+    Corners(std::span<const glm::dvec3> positions, const glm::uvec3& t)
+        : a(positions[t.x]), b(positions[t.y]), c(positions[t.z]) {}
+
+    glm::dvec3 center() const { return a / 3.0 + b / 3.0 + c / 3.0; }
+    double area() const { return 0.5 * glm::length(glm::cross(b - a, c - a)); }
+    double extent() const { return largest_coordinate(glm::max(a, glm::max(b, c)) - glm::min(a, glm::min(b, c))); }
+    /// How far the farthest corner is from `p`.
+    double reach(const glm::dvec3& p) const {
+        return std::max({largest_coordinate(a - p), largest_coordinate(b - p), largest_coordinate(c - p)});
+    }
+};
+
+/// Where most of some triangles are.
+struct Middle {
+    glm::dvec3 center{0.0};
+    double size = 0;  ///< half of them lie in a cube of this size around the centre
+
+    bool is_far() const { return size > 0.0 && largest_coordinate(center) > far * size; }
+
+    /// Near the centre, in few binary digits.
+    glm::dvec3 origin() const {
+        const double step = std::exp2(std::floor(std::log2(size)));
+        return step * glm::round(center / step);
+    }
+};
+
+double median(std::vector<double>& values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+/// As many triangles are looked at, or a few more.
+constexpr std::size_t draws = 1023;
+
+/// Drawn evenly by area: as each stands for the same area, medians over them are medians of the area. Empty if that is
+/// not positive and finite.
+std::vector<Corners> draw_by_area(std::span<const glm::dvec3> positions, std::span<const glm::uvec3> triangles) {
+    std::vector<double> areas;
+    areas.reserve(triangles.size());
+    double total = 0;
+    for (const glm::uvec3& t : triangles) {
+        areas.push_back(Corners(positions, t).area());
+        total += areas.back();
+    }
+    std::vector<Corners> drawn;
+    if (!(total > 0.0) || !std::isfinite(total)) return drawn;
+    const double step = total / static_cast<double>(draws);
+    double before = 0;
+    for (std::size_t i = 0; i < areas.size(); ++i) {
+        before += areas[i];
+        while ((static_cast<double>(drawn.size()) + 0.5) * step < before) drawn.emplace_back(positions, triangles[i]);
+    }
+    return drawn;
+}
+
+std::vector<Corners> draw_by_count(std::span<const glm::dvec3> positions, std::span<const glm::uvec3> triangles) {
+    const std::size_t stride = 1 + triangles.size() / draws;
+    std::vector<Corners> drawn;
+    for (std::size_t i = 0; i < triangles.size(); i += stride) drawn.emplace_back(positions, triangles[i]);
+    return drawn;
+}
+
+Middle middle_of(const std::vector<Corners>& drawn) {
+    Middle middle;
+    std::vector<double> values(drawn.size());
+    for (int axis = 0; axis < 3; ++axis) {
+        for (std::size_t i = 0; i < drawn.size(); ++i) values[i] = drawn[i].center()[axis];
+        middle.center[axis] = median(values);
+    }
+    for (std::size_t i = 0; i < drawn.size(); ++i) values[i] = drawn[i].reach(middle.center);
+    middle.size = 2.0 * median(values);
+    return middle;
+}
+
+/// The share of the triangles whose shadows are lost about `origin`.
+double loss_about(const glm::dvec3& origin, const std::vector<Corners>& drawn) {
+    double sum = 0;
+    for (const Corners& corners : drawn) {
+        const double extent = corners.extent();
+        if (extent > 0.0) sum += std::min(ray_offset_share * corners.reach(origin) / (lost_share * extent), 1.0);
+    }
+    return sum / static_cast<double>(drawn.size());
+}
+
+/// The origin, and how large the scene is about it.
+Middle choose_origin(std::span<const glm::dvec3> positions, std::span<const glm::uvec3> triangles) {
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    Middle best{glm::dvec3(0.0), infinite};
+    const std::vector<Corners> by_area = draw_by_area(positions, triangles);
+    if (by_area.empty()) return best;
+    const std::vector<Corners> by_count = draw_by_count(positions, triangles);
+    const auto loss = [&](const glm::dvec3& origin) {
+        return loss_about(origin, by_area) + loss_about(origin, by_count);
+    };
+    // Only what gains much is moved.
+    double least_loss = 0.5 * loss(best.center);
+    for (const std::vector<Corners>* drawn : {&by_area, &by_count}) {
+        const Middle middle = middle_of(*drawn);
+        if (drawn == &by_area) best.size = middle.size;
+        if (!middle.is_far()) continue;
+        const double here = loss(middle.origin());
+        if (!(here < least_loss)) continue;
+        least_loss = here;
+        best = {middle.origin(), middle.size};
+    }
+    return best;
+}
+
+void note_coarse_coordinates(Scene& scene, std::span<const glm::dvec3> positions, double size) {
     std::size_t coarse = 0;
-    double largest_step = 0.0;
+    bool is_stray = false;
+    double largest_offset = 0.0;
     for (const glm::uvec3& t : scene.triangles) {
-        const glm::dvec3& a = positions[t.x];
-        const glm::dvec3& b = positions[t.y];
-        const glm::dvec3& c = positions[t.z];
-        const double size = largest(glm::max(a, glm::max(b, c)) - glm::min(a, glm::min(b, c)));
-        const double step = largest(a - scene.origin) * 0x1p-23;
-        if (size > 0.0 && step > coarse_share * size) {
+        const Corners corners(positions, t);
+        const double extent = corners.extent();
+        const double reach = corners.reach(scene.origin);
+        const double offset = ray_offset_share * reach;
+        if (extent > 0.0 && offset > coarse_share * extent) {
             ++coarse;
-            largest_step = std::max(largest_step, step);
+            largest_offset = std::max(largest_offset, offset);
+            is_stray = is_stray || reach > stray * size;
         }
     }
-    if (static_cast<double>(coarse) <= many * static_cast<double>(scene.triangles.size())) return;
+    const bool are_many = static_cast<double>(coarse) > many * static_cast<double>(scene.triangles.size());
+    if (coarse == 0 || !(are_many || is_stray)) return;
     std::ostringstream why;
-    why << "so far from the scene's middle a float's step is " << largest_step << "; split the scene";
-    leave_out(scene.left_out, "the shape of " + std::to_string(coarse) + " small triangles", why.str());
+    why << "so far from the scene's middle a float's step is " << largest_offset / ray_offset_share * 0x1p-23
+        << ", and rays leave a surface by " << largest_offset << "; split the scene";
+    leave_out(scene.left_out, "the shape and the shadows of " + std::to_string(coarse) + " small triangles", why.str());
 }
 
 }  // namespace
 
-glm::dvec3 world_origin(std::span<const glm::dvec3> positions) {
-    if (positions.empty()) return glm::dvec3(0.0);
-    glm::dvec3 low = positions.front();
-    glm::dvec3 high = low;
-    for (const glm::dvec3& p : positions) {
-        low = glm::min(low, p);
-        high = glm::max(high, p);
-    }
-    const glm::dvec3 centre = 0.5 * low + 0.5 * high;
-    const double size = largest(high - low);
-    // Also if something is not finite.
-    if (!(size > 0.0) || !(largest(centre) > far * size)) return glm::dvec3(0.0);
-    const double step = std::exp2(std::floor(std::log2(size)));
-    return step * glm::round(centre / step);
+glm::dvec3 world_origin(std::span<const glm::dvec3> positions, std::span<const glm::uvec3> triangles) {
+    return choose_origin(positions, triangles).center;
 }
 
 void set_positions(Scene& scene, std::span<const glm::dvec3> positions) {
-    scene.origin = world_origin(positions);
+    const Middle chosen = choose_origin(positions, scene.triangles);
+    scene.origin = chosen.center;
     scene.positions.clear();
     scene.positions.reserve(positions.size());
     for (const glm::dvec3& p : positions) scene.positions.emplace_back(p - scene.origin);
-    note_coarse_coordinates(scene, positions);
+    note_coarse_coordinates(scene, positions, chosen.size);
 }
 
 }  // namespace render
