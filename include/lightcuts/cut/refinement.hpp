@@ -114,15 +114,18 @@ public:
     bool split(P& problem, const RefinementOptions& options) {
         const auto visit = [this](auto&& f) { this->for_each(f); };
         if constexpr (requires { problem.observe(visit); }) problem.observe(visit);
-        while (!choose(problem, options)) {
+        const std::size_t room = options.max_nodes > size() ? options.max_nodes - size() : 0;
+        const std::size_t most_splits = room / (most_children<P> - 1);
+        // At the limit all that is above the threshold is tightened once more, and then no more.
+        const double fraction = most_splits == 0 ? 0.0 : std::min(options.round_fraction, 1.0);
+        while (!choose(problem, fraction)) {
             if constexpr (requires { problem.revise(visit); }) {
                 if (problem.revise(visit)) continue;
             }
             stop_ = StopReason::converged;
             return false;
         }
-        const std::size_t room = options.max_nodes > size() ? options.max_nodes - size() : 0;
-        keep_largest(problem, room / (most_children<P> - 1));
+        keep_largest(problem, most_splits);
         if (chosen_.empty()) {
             stop_ = StopReason::limit;
             return false;
@@ -194,8 +197,7 @@ private:
 
     /// Fills `chosen_` with what a round would split; false if no priority is above the threshold.
     template <class P>
-    bool choose(P& problem, const RefinementOptions& options) {
-        const double fraction = options.round_fraction < 1.0 ? options.round_fraction : 1.0;
+    bool choose(P& problem, double fraction) {
         double threshold = problem.threshold();
         bool is_stale = !FixedPriorityProblem<P>;
         if constexpr (tells_scale<P>) {
