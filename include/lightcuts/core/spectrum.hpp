@@ -40,10 +40,13 @@ struct spectrum_traits<S> {
     static constexpr void set(S& s, int i, float value) { s[i] = value; }
 };
 
-/// A quantity of light per channel: `float`, `glm::vec3`, or a user's N bands.
-/// `S{}` is darkness; `+` and `*` work channel by channel; `*` by a float scales.
+/// A quantity of light per channel: `float`, `glm::vec3`, or a user's N bands. `+` and `*` work channel by channel; `*`
+/// by a float scales. `S s;` may leave the channels as they are: darkness is `black<S>()`, which sets them. Copies are
+/// made and assigned; what `operator=` returns does not matter.
 template <class S>
-concept Spectrum = std::copyable<S> && std::default_initializable<S> && requires(S a, const S b, float k, int i) {
+concept Spectrum = std::copy_constructible<S> && std::default_initializable<S> &&
+    requires(S a, const S b, float k, int i) {
+    a = b;
     { b + b } -> std::convertible_to<S>;
     { b* b } -> std::convertible_to<S>;
     { b* k } -> std::convertible_to<S>;
@@ -67,6 +70,12 @@ constexpr S make_spectrum(F&& f) {
     S s{};
     for (int i = 0; i < channels_of<S>; ++i) spectrum_traits<S>::set(s, i, static_cast<float>(f(i)));
     return s;
+}
+
+/// Darkness: every channel is zero, whatever the default constructor of `S` leaves there.
+template <Spectrum S>
+constexpr S black() {
+    return make_spectrum<S>([](int) { return 0.0f; });
 }
 
 /// Sum of the channels: the scalar by which lights and clusters are weighted.

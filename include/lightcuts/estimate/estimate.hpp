@@ -21,7 +21,7 @@ namespace lightcuts {
 /// What shading a receiver light by light yields.
 template <Spectrum S>
 struct Estimate {
-    S radiance{};
+    S radiance = black<S>();
     /// Radiance that no clamped light exceeded; infinite if there was no limit, as in automatic clamping of two or
     /// fewer.
     S clamp_threshold = make_spectrum<S>([](int) { return std::numeric_limits<float>::infinity(); });

@@ -18,15 +18,17 @@ struct AboveHorizon {
     using Inner = std::remove_cvref_t<M>;
     using S = material_spectrum<Inner>;
 
-    S evaluate(const glm::vec3& to_light) const { return is_above(to_light) ? material.evaluate(to_light) : S{}; }
+    S evaluate(const glm::vec3& to_light) const {
+        return is_above(to_light) ? material.evaluate(to_light) : black<S>();
+    }
     void evaluate_many(const LaneVectors& to_lights, LaneSpectra<S>& values) const requires LaneMaterial<Inner> {
         material.evaluate_many(to_lights, values);
         for (int i = 0; i < lane_count; ++i) {
-            if (!(glm::dot(geometric_normal, to_lights.at(i)) > 0.0f)) values[static_cast<std::size_t>(i)] = S{};
+            if (!(glm::dot(geometric_normal, to_lights.at(i)) > 0.0f)) values[static_cast<std::size_t>(i)] = black<S>();
         }
     }
     S upper_bound(const OffsetBox& offsets) const requires BoundedMaterial<Inner> {
-        return is_below(offsets) ? S{} : material.upper_bound(offsets);
+        return is_below(offsets) ? black<S>() : material.upper_bound(offsets);
     }
     void quick_upper_bounds(const OffsetBlock& offsets, LaneSpectra<S>& bounds) const requires BoundedMaterial<Inner> {
         cheapest_upper_bounds(material, offsets, bounds);

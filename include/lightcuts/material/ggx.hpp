@@ -46,9 +46,9 @@ public:
     }
 
     S evaluate(const glm::vec3& to_light) const {
-        if (!(frame_.cos_view() > 0.0)) return S{};
+        if (!(frame_.cos_view() > 0.0)) return black<S>();
         const detail::HalfVector h = frame_.of(to_light);
-        if (!(h.cosine > 0.0)) return S{};
+        if (!(h.cosine > 0.0)) return black<S>();
         const double value = without_fresnel(h.cosine, h.sin2);
         const double grazing = value * schlick(h.facing);
         const float a = static_cast<float>(value - grazing);
@@ -57,7 +57,7 @@ public:
     }
 
     void evaluate_many(const LaneVectors& to_lights, LaneSpectra<S>& values) const {
-        if (!(frame_.cos_view() > 0.0)) return values.fill(S{});
+        if (!(frame_.cos_view() > 0.0)) return values.fill(black<S>());
         if (alpha2_ < 1e-2) {  // too sharp for float
             for (int i = 0; i < lane_count; ++i) values[static_cast<std::size_t>(i)] = evaluate(to_lights.at(i));
             return;
@@ -95,12 +95,12 @@ public:
 
     /// cost: about 110 ns, of smooth surfaces, to 130
     S upper_bound(const OffsetBox& offsets) const {
-        if (!(frame_.cos_view() > 0.0) || detail::lies_below(frame_.normal(), offsets)) return S{};
+        if (!(frame_.cos_view() > 0.0) || detail::lies_below(frame_.normal(), offsets)) return black<S>();
         return bound(most_cosine(offsets), frame_.range_over<true>(detail::rounded_directions(offsets)));
     }
     /// cost: about 10 ns each
     void quick_upper_bounds(const OffsetBlock& offsets, LaneSpectra<S>& bounds) const {
-        if (!(frame_.cos_view() > 0.0)) return bounds.fill(S{});
+        if (!(frame_.cos_view() > 0.0)) return bounds.fill(black<S>());
         const glm::vec3 normal(frame_.normal());
         detail::DirectionCaps caps;
         detail::HalfVectorRanges h;

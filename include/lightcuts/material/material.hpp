@@ -100,7 +100,7 @@ void evaluate_lanes(const M& m, const LaneVectors& to_lights, int count, LaneSpe
     if constexpr (LaneMaterial<M>) {
         m.evaluate_many(to_lights, values);
     } else if constexpr (CompositeMaterial<M>) {
-        values = {};
+        values.fill(black<material_spectrum<M>>());
         m.for_each_component([&](const auto& part) {
             LaneSpectra<material_spectrum<M>> terms;
             evaluate_lanes(part, to_lights, count, terms);

@@ -41,7 +41,7 @@ void blacken_below(const glm::vec3& n, const OffsetBlock& offsets, LaneSpectra<S
     LaneSupport s;
     support(n, offsets, s);
     for (int i = 0; i < lane_count; ++i) {
-        if (s.value[i] <= -s.noise[i]) bounds[static_cast<std::size_t>(i)] = S{};
+        if (s.value[i] <= -s.noise[i]) bounds[static_cast<std::size_t>(i)] = black<S>();
     }
 }
 

@@ -31,17 +31,17 @@ public:
     S evaluate(const glm::vec3& to_light) const {
         const glm::dvec3 o(to_light);
         const double cosine = detail::dot(normal_, o);
-        if (!(cosine > 0.0 && detail::dot(mirror_, o) > 0.0)) return S{};
+        if (!(cosine > 0.0 && detail::dot(mirror_, o) > 0.0)) return black<S>();
         // 1 - cos of the angle to the mirror direction, free of cancellation and of the error in the length of o.
         const double o2 = detail::dot(o, o);
         const glm::dvec3 chord = o - mirror_ * (0.5 + 0.5 * o2);
         const double away = 0.5 * detail::dot(chord, chord) * (2.0 - o2);
-        return away < 1.0 ? scale_ * static_cast<float>(power(1.0 - away) * cosine) : S{};
+        return away < 1.0 ? scale_ * static_cast<float>(power(1.0 - away) * cosine) : black<S>();
     }
 
     /// cost: about 80 ns
     S upper_bound(const OffsetBox& offsets) const {
-        if (detail::lies_below(normal_, offsets) || detail::lies_below(mirror_, offsets)) return S{};
+        if (detail::lies_below(normal_, offsets) || detail::lies_below(mirror_, offsets)) return black<S>();
         const double along = clamped_max_cosine(mirror_, offsets, 0.01 / (1.0 + exponent_));
         return bound(detail::turned(along), detail::turned(clamped_max_cosine(normal_, offsets)));
     }
@@ -52,7 +52,7 @@ public:
         detail::clamped_max_cosines(glm::vec3(normal_), offsets, cosines);
         for (int i = 0; i < lane_count; ++i) {
             const bool is_dark = detail::smaller(along[i], cosines[i]) == 0.0f;
-            bounds[static_cast<std::size_t>(i)] = is_dark ? S{}
+            bounds[static_cast<std::size_t>(i)] = is_dark ? black<S>()
                                                           : bound(static_cast<double>(along[i]),
                                                                   static_cast<double>(cosines[i]));
         }
@@ -74,7 +74,7 @@ private:
     glm::dvec3 normal_;
     glm::dvec3 mirror_;
     double exponent_;
-    S scale_{};
+    S scale_ = black<S>();
 };
 
 }  // namespace lightcuts

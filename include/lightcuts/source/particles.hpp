@@ -27,7 +27,7 @@ template <Spectrum S = glm::vec3>
 struct ScatteredParticle {
     glm::vec3 origin{0.0f};  ///< moved off the surface, as shadow rays are
     glm::vec3 direction{0.0f, 0.0f, 1.0f};
-    S weight{};  ///< BRDF x cosine / density of the direction; black if it is absorbed
+    S weight = black<S>();  ///< BRDF x cosine / density of the direction; black if it is absorbed
 };
 
 /// What particles need to know of a scene. It is used by several threads if the executor has them.
@@ -95,7 +95,7 @@ void leave_light(const Scene& scene, const Hit& hit, const S& power, double roul
                  std::vector<OrientedPointLight<S>>& lights) {
     const S reflected = power * S(scene.diffuse_albedo(hit));
     const double front = channel_sum(reflected);
-    S transmitted{};
+    S transmitted = black<S>();
     if constexpr (TransmissiveParticleScene<Scene, S>) transmitted = power * S(scene.diffuse_transmittance(hit));
     const double behind = channel_sum(transmitted);
     const double whole = std::max(front + behind, 1.0);
