@@ -2,6 +2,10 @@
 
 /// Everything that shading by lightcuts needs. Library headers never include this file.
 
+#if !(__cplusplus >= 202002L) && !(defined(_MSVC_LANG) && _MSVC_LANG >= 202002L)
+#error "lightcuts needs C++20: compile with -std=c++20 or later (MSVC: /std:c++20)"
+#else
+
 #include "cut/lightcut.hpp"
 #include "estimate/adaptive_splitting.hpp"
 #include "estimate/exhaustive.hpp"
@@ -26,3 +30,5 @@
 #include "tree/light_tree.hpp"
 #include "tree/longest_axis.hpp"
 #include "tree/validate.hpp"
+
+#endif

@@ -48,7 +48,7 @@ public:
     /// Number of trees with at least one lit light: the smallest cut.
     std::size_t root_count() const {
         std::size_t count = 0;
-        for_each([&](std::uint32_t, const auto& tree) { count += tree.empty() ? 0 : 1; });
+        for_each([&](std::uint32_t, const auto& tree) { count += tree.empty() ? 0u : 1u; });
         return count;
     }
 

@@ -70,7 +70,7 @@ std::vector<OrientedPointLight<emitter_spectrum<E>>> area_lights(const E& emitte
     const auto pieces = detail::cut_sides(emitter, 1.0 / wanted, 1.0 / std::max(wanted, detail::least_textured_pieces));
     double power = 0.0;
     for (const auto& piece : pieces) power += piece.area * channel_sum(piece.radiance);
-    if (!(power > 0.0)) throw invalid_input("emitter: all its triangles are black");
+    if (!(power > 0.0)) LIGHTCUTS_THROW(invalid_input("emitter: all its triangles are black"));
     std::vector<OrientedPointLight<S>> lights;
     if (count == 0) return lights;
 

@@ -213,7 +213,7 @@ auto virtual_lights(const Scene& scene, const ParticleSources<Ls...>& sources, c
     if constexpr (ParticleSources<Ls...>::has_directional) {
         bounds = scene.bounds();
         if (is_empty(bounds) || !is_finite(bounds.lo) || !is_finite(bounds.hi)) {
-            throw invalid_input("virtual lights: the scene's bounds are empty or not finite");
+            LIGHTCUTS_THROW(invalid_input("virtual lights: the scene's bounds are empty or not finite"));
         }
     }
     const detail::ParticleEmission<ParticleSources<Ls...>> emission(sources, bounds);
@@ -233,12 +233,13 @@ auto virtual_lights(const Scene& scene, const ParticleSources<Ls...>& sources, c
         left += tally.lights.size();
     }
     if (landed == 0) {
-        throw invalid_input("virtual lights: none of " + std::to_string(followed) +
-                            " particles from the lights met a surface");
+        LIGHTCUTS_THROW(invalid_input("virtual lights: none of " + std::to_string(followed) +
+                                      " particles from the lights met a surface"));
     }
     if (left == 0) {
-        throw invalid_input("virtual lights: of " + std::to_string(followed) + " particles " + std::to_string(landed) +
-                            " met a surface, but none was reflected or let through diffusely");
+        LIGHTCUTS_THROW(invalid_input("virtual lights: of " + std::to_string(followed) + " particles " +
+                                      std::to_string(landed) +
+                                      " met a surface, but none was reflected or let through diffusely"));
     }
     const double wanted = static_cast<double>(options.lights) * static_cast<double>(followed) /
                           static_cast<double>(left);

@@ -79,7 +79,7 @@ std::vector<SpherePointLight<S>> sphere_lights(std::span<const SphereLight<S>> s
     for (std::uint32_t i = 0; i < spheres.size(); ++i) {
         const SphereLight<S>& sphere = spheres[i];
         const auto refuse = [&](const std::string& what) {
-            throw invalid_input("spherical light " + std::to_string(i) + ": " + what);
+            LIGHTCUTS_THROW(invalid_input("spherical light " + std::to_string(i) + ": " + what));
         };
         if (!is_finite(sphere.centre)) refuse("its centre is not finite");
         if (!(sphere.radius > 0.0f && sphere.radius - sphere.radius == 0.0f)) {

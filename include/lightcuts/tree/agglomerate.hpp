@@ -199,7 +199,7 @@ private:
 template <class Item, class E, class P>
 ClusterTree agglomerate(std::span<const Item> items, const ClusterSize& size, const E& execute, P& progress) {
     if (!(size.direction >= 0 && size.direction <= 1e6)) {
-        throw invalid_input("ClusterSize: the weight of directions must lie between 0 and 1e6 diagonals");
+        LIGHTCUTS_THROW(invalid_input("ClusterSize: the weight of directions must lie between 0 and 1e6 diagonals"));
     }
     check_items(items);
     if (items.empty()) return {};

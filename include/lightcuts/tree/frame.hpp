@@ -26,12 +26,14 @@ concept HasAxis = requires(const Item& i) {
 template <class Item>
 void check_items(std::span<const Item> items) {
     if (items.size() > ClusterTree::max_items) {
-        throw invalid_input("a cluster tree holds at most " + std::to_string(ClusterTree::max_items) + " items, not " +
-                            std::to_string(items.size()));
+        LIGHTCUTS_THROW(invalid_input("a cluster tree holds at most " + std::to_string(ClusterTree::max_items) +
+                                      " items, not " + std::to_string(items.size())));
     }
     for (std::size_t i = 0; i < items.size(); ++i) {
         const Item& item = items[i];
-        const auto refuse = [i](const char* what) { throw invalid_input("item " + std::to_string(i) + ": " + what); };
+        const auto refuse = [i](const char* what) {
+            LIGHTCUTS_THROW(invalid_input("item " + std::to_string(i) + ": " + what));
+        };
         if (!is_finite(item.position)) refuse("the position is not finite");
         if (!(item.weight > 0.0f && item.weight <= std::numeric_limits<float>::max())) {
             refuse("the weight is not positive and finite; leave out lights that are dark");

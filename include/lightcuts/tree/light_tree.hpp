@@ -81,7 +81,8 @@ public:
                        const E& execute = {})
         : lights_(lights), options_(options) {
         if (options.representatives < 1 || options.representatives > 32) {
-            throw invalid_input("representatives: " + std::to_string(options.representatives) + " is not in 1 to 32");
+            LIGHTCUTS_THROW(
+                invalid_input("representatives: " + std::to_string(options.representatives) + " is not in 1 to 32"));
         }
         build_topology(builder, execute);
         summarise();
@@ -125,7 +126,7 @@ private:
     using Item = std::conditional_t<cluster::oriented, OrientedItem, PointItem>;
 
     [[noreturn]] static void reject(std::size_t index, const char* what) {
-        throw invalid_input("light " + std::to_string(index) + ": " + what);
+        LIGHTCUTS_THROW(invalid_input("light " + std::to_string(index) + ": " + what));
     }
 
     void summarise() {
@@ -185,7 +186,9 @@ private:
     void build_topology(const Builder& builder, const E& execute) {
         std::vector<Item> items;
         std::vector<std::uint32_t> light_of;
-        if (lights_.size() > ClusterTree::max_items) throw invalid_input("more than 2^30 lights in one tree");
+        if (lights_.size() > ClusterTree::max_items) {
+            LIGHTCUTS_THROW(invalid_input("more than 2^30 lights in one tree"));
+        }
         items.reserve(lights_.size());
         for (std::size_t i = 0; i < lights_.size(); ++i) {
             const Item item = checked_item(lights_[i], i);

@@ -49,7 +49,8 @@ using record_of = Record<HasAxis<Item>>;
 template <class Item>
 std::unique_ptr<record_of<Item>[]> make_records(std::span<const Item> items) {
     const Frame frame = Frame::of(items);
-    auto records = std::make_unique_for_overwrite<record_of<Item>[]>(items.size());
+    // Left unset; not std::make_unique_for_overwrite, which libc++ 14 lacks.
+    std::unique_ptr<record_of<Item>[]> records(new record_of<Item>[items.size()]);
     for (std::size_t i = 0; i < items.size(); ++i) {
         const Item& item = items[i];
         auto& r = records[i];
@@ -142,7 +143,7 @@ std::size_t partition_records(std::span<Record> records, Predicate&& goes_left) 
         const Record r = records[i];
         records[i] = records[left];
         records[left] = r;
-        left += goes_left(r) ? 1 : 0;
+        left += goes_left(r) ? 1u : 0u;
     }
     return left;
 }

@@ -99,7 +99,8 @@ private:
             begin_.push_back(static_cast<std::uint32_t>(leaves_.size()));
         }
         if (leaves_.size() > std::numeric_limits<std::uint32_t>::max()) {
-            throw invalid_input("representatives: so many lights have more than 2^32 of them; ask for fewer a node");
+            LIGHTCUTS_THROW(
+                invalid_input("representatives: so many lights have more than 2^32 of them; ask for fewer a node"));
         }
         leaves_.shrink_to_fit();
     }

@@ -15,13 +15,13 @@ namespace lightcuts {
 /// throws: invalid_input naming the first node that is wrong. cost: O(item_bound).
 inline void validate(const ClusterTree& tree) {
     const auto refuse = [](std::size_t node, const std::string& what) {
-        throw invalid_input("cluster tree, node " + std::to_string(node) + ": " + what);
+        LIGHTCUTS_THROW(invalid_input("cluster tree, node " + std::to_string(node) + ": " + what));
     };
     const std::vector<std::uint32_t>& words = tree.words();
     if (words.empty()) return;
     if (words.size() % 2 == 0) {
-        throw invalid_input("cluster tree: a binary tree has an odd number of nodes, not " +
-                            std::to_string(words.size()));
+        LIGHTCUTS_THROW(invalid_input("cluster tree: a binary tree has an odd number of nodes, not " +
+                                      std::to_string(words.size())));
     }
     std::vector<bool> seen(tree.item_bound(), false);
     std::vector<std::uint32_t> first_leaves;  // of the complete subtrees so far, left to right
@@ -50,13 +50,13 @@ template <class T, class Agrees>
 void validate(const ClusterTree& tree, const std::vector<T>& summaries, Agrees&& agrees) {
     validate(tree);
     if (summaries.size() != tree.size()) {
-        throw invalid_input("cluster tree: " + std::to_string(tree.size()) + " nodes, but " +
-                            std::to_string(summaries.size()) + " summaries");
+        LIGHTCUTS_THROW(invalid_input("cluster tree: " + std::to_string(tree.size()) + " nodes, but " +
+                                      std::to_string(summaries.size()) + " summaries"));
     }
     for (ClusterTree::node_index n = 0; n < tree.size(); ++n) {
         if (!tree.is_leaf(n) && !agrees(summaries[n], summaries[tree.left(n)], summaries[tree.right(n)])) {
-            throw invalid_input("cluster tree, node " + std::to_string(n) +
-                                ": its summary disagrees with its children");
+            LIGHTCUTS_THROW(
+                invalid_input("cluster tree, node " + std::to_string(n) + ": its summary disagrees with its children"));
         }
     }
 }
