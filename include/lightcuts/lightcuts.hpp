@@ -19,6 +19,7 @@
 #include "light/oriented.hpp"
 #include "light/spot.hpp"
 #include "material/above_horizon.hpp"
+#include "material/bounded_by.hpp"
 #include "material/capped.hpp"
 #include "material/ggx.hpp"
 #include "material/lambert.hpp"

@@ -21,8 +21,9 @@ struct AboveHorizon {
     S evaluate(const glm::vec3& to_light) const {
         return is_above(to_light) ? material.evaluate(to_light) : black<S>();
     }
-    void evaluate_many(const LaneVectors& to_lights, LaneSpectra<S>& values) const requires LaneMaterial<Inner> {
-        material.evaluate_many(to_lights, values);
+    void evaluate_many(const LaneVectors& to_lights, int count,
+                       LaneSpectra<S>& values) const requires LaneMaterial<Inner> {
+        material.evaluate_many(to_lights, count, values);
         for (int i = 0; i < lane_count; ++i) {
             if (!(glm::dot(geometric_normal, to_lights.at(i)) > 0.0f)) values[static_cast<std::size_t>(i)] = black<S>();
         }

@@ -56,10 +56,10 @@ public:
         return make_spectrum<S>([&](int i) { return channel(f0_, i) * a + b; });
     }
 
-    void evaluate_many(const LaneVectors& to_lights, LaneSpectra<S>& values) const {
+    void evaluate_many(const LaneVectors& to_lights, int count, LaneSpectra<S>& values) const {
         if (!(frame_.cos_view() > 0.0)) return values.fill(black<S>());
         if (alpha2_ < 1e-2) {  // too sharp for float
-            for (int i = 0; i < lane_count; ++i) values[static_cast<std::size_t>(i)] = evaluate(to_lights.at(i));
+            for (int i = 0; i < count; ++i) values[static_cast<std::size_t>(i)] = evaluate(to_lights.at(i));
             return;
         }
         const glm::vec3 n(frame_.normal()), v(frame_.view());
