@@ -2,6 +2,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "../core/assertion.hpp"
+#include "../core/vector.hpp"
 #include "material.hpp"
 #include "outward.hpp"
 
@@ -23,6 +25,7 @@ struct AboveHorizon {
     }
     void evaluate_many(const LaneVectors& to_lights, int count,
                        LaneSpectra<S>& values) const requires LaneMaterial<Inner> {
+        LIGHTCUTS_ASSERT(is_unit(geometric_normal));
         material.evaluate_many(to_lights, count, values);
         for (int i = 0; i < lane_count; ++i) {
             if (!(glm::dot(geometric_normal, to_lights.at(i)) > 0.0f)) values[static_cast<std::size_t>(i)] = black<S>();
@@ -47,6 +50,7 @@ struct AboveHorizon {
 
     /// True if a light in the direction `to_light`, of any length, can be reflected.
     bool is_above(const glm::vec3& to_light) const {
+        LIGHTCUTS_ASSERT(is_unit(geometric_normal));
         return detail::dot(glm::dvec3(geometric_normal), glm::dvec3(to_light)) > 0.0;
     }
 

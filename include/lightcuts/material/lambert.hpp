@@ -3,7 +3,9 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include "../core/assertion.hpp"
 #include "../core/cosine.hpp"
+#include "../core/vector.hpp"
 #include "material.hpp"
 #include "outward.hpp"
 
@@ -27,7 +29,10 @@ struct Lambert {
             values[static_cast<std::size_t>(i)] = scale * detail::larger(cosine, 0.0f);
         }
     }
-    CosineLobe<S> cosine_lobe() const { return {normal, albedo * 0.31830988618f}; }
+    CosineLobe<S> cosine_lobe() const {
+        LIGHTCUTS_ASSERT(is_unit(normal));
+        return {normal, albedo * 0.31830988618f};
+    }
 
     /// cost: about 40 ns
     S upper_bound(const OffsetBox& offsets) const {

@@ -7,6 +7,7 @@
 
 #include "../core/assertion.hpp"
 #include "../core/cosine.hpp"
+#include "../core/vector.hpp"
 #include "material.hpp"
 #include "outward.hpp"
 
@@ -21,7 +22,7 @@ public:
     /// A view from below the surface makes a black material.
     ModifiedPhong(const glm::vec3& normal, const glm::vec3& view, const S& specular, float exponent)
         : normal_(glm::normalize(glm::dvec3(normal))), exponent_(static_cast<double>(exponent)) {
-        LIGHTCUTS_ASSERT(exponent >= 0.0f);
+        LIGHTCUTS_ASSERT(is_unit(normal) && is_unit(view) && exponent >= 0.0f);
         const glm::dvec3 v = glm::normalize(glm::dvec3(view));
         const double facing = glm::dot(normal_, v);
         mirror_ = glm::normalize(2.0 * facing * normal_ - v);
