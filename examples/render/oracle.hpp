@@ -23,7 +23,7 @@ glm::vec3 shadow_end(const Scene& scene, const glm::vec3& from, const L& light) 
     if constexpr (std::same_as<L, lightcuts::SpherePointLight<>>) {
         return lightcuts::shadow_end(scene.spheres[light.sphere], from, light.position);
     } else {
-        return lightcuts::place_of(light);
+        return lightcuts::position_or_direction(light);
     }
 }
 
@@ -36,7 +36,7 @@ public:
     glm::vec3 operator()(const R& receiver, const L& light) const {
         const glm::vec3 from = receiver.shadow_origin;
         if constexpr (lightcuts::DirectionalLight<L>) {
-            return rays_.to_infinity(from, lightcuts::place_of(light));
+            return rays_.to_infinity(from, lightcuts::position_or_direction(light));
         } else {
             const glm::vec3 end = shadow_end(scene_, from, light);
             return end == from ? glm::vec3(1.0f) : rays_.to_point(from, end);

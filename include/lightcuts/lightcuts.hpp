@@ -13,7 +13,7 @@
 #include "estimate/stochastic_lightcuts.hpp"
 #include "estimate/tree_sampling.hpp"
 #include "estimate/ward.hpp"
-#include "light/clamped.hpp"
+#include "light/clampable.hpp"
 #include "light/directional.hpp"
 #include "light/omni.hpp"
 #include "light/oriented.hpp"

@@ -183,7 +183,7 @@ struct LeastBlade : private Pinned {
     LeastBlade() : Pinned(0) {}
     template <class R, class L>
     bool operator()(const R& receiver, const L& light) const {
-        return (receiver.shadow_origin.z > 0.0f) == (place_of(light).z > 0.0f);
+        return (receiver.shadow_origin.z > 0.0f) == (position_or_direction(light).z > 0.0f);
     }
 };
 struct LeastBatchedBlade : private Pinned {

@@ -55,7 +55,7 @@ TEST(UnsetSpectrum, CutsThroughNoLightsAreBlack) {
 }
 
 TEST(UnsetSpectrum, IsClampedInCuts) {
-    std::vector<VirtualLight<Unset>> lights(32);
+    std::vector<VirtualPointLight<Unset>> lights(32);
     for (std::size_t i = 0; i < lights.size(); ++i) {
         lights[i].position = {0.1f * static_cast<float>(i % 5), 0.2f, 0.3f + 0.1f * static_cast<float>(i)};
         lights[i].axis = {0.0f, 0.0f, -1.0f};

@@ -57,7 +57,7 @@ constexpr S scale_bound(const S& s, float bound) {
     // Covers rounding to float here and in products with it, and axes of nearly unit length.
     constexpr float slack = 1.0f + 1.2e-5f;
     const float factor = bound * slack;
-    if (factor <= std::numeric_limits<float>::max()) return s * factor;
+    if (factor <= (std::numeric_limits<float>::max)()) return s * factor;
     return make_spectrum<S>([&](int c) { return channel(s, c) > 0.0f ? channel(s, c) * factor : 0.0f; });
 }
 template <Spectrum S>

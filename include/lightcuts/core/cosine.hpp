@@ -114,7 +114,7 @@ inline glm::dvec3 vertex_along(const glm::dvec3& v, const OffsetBox& b) {
 inline double start_of(const glm::dvec3& v, const OffsetBox& b, const glm::dvec3& nearest, double d2, double support) {
     const glm::dvec3 middle = centre(b);
     const glm::dvec3 farthest = vertex_along(v, b);
-    const auto value = [](double p2, double along) { return p2 / larger(along, std::numeric_limits<double>::min()); };
+    const auto value = [](double p2, double along) { return p2 / larger(along, (std::numeric_limits<double>::min)()); };
     const double from_farthest = dot(farthest, farthest) / support;
     const double from_middle = value(dot(middle, middle), dot(v, middle));
     const double from_nearest = value(d2, dot(v, nearest));

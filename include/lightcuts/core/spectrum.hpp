@@ -132,7 +132,7 @@ constexpr float rough_sum(const S& s) {
 /// `s` with no channel above the largest float, so that a product with zero stays zero.
 template <Spectrum S>
 constexpr S finite(const S& s) {
-    constexpr float largest = std::numeric_limits<float>::max();
+    constexpr float largest = (std::numeric_limits<float>::max)();
     if (detail::rough_sum(s) <= largest) return s;
     return make_spectrum<S>([&](int i) {
         const float c = channel(s, i);
@@ -144,9 +144,9 @@ constexpr S finite(const S& s) {
 template <Spectrum S>
 constexpr S finite_product(const S& a, const S& b) {
     const S product = a * b;
-    if (detail::rough_sum(product) <= std::numeric_limits<float>::max()) return product;
+    if (detail::rough_sum(product) <= (std::numeric_limits<float>::max)()) return product;
     return make_spectrum<S>([&](int i) {
-        constexpr float largest = std::numeric_limits<float>::max();
+        constexpr float largest = (std::numeric_limits<float>::max)();
         const float x = channel(a, i), y = channel(b, i);
         if (!(x > 0.0f && y > 0.0f)) return 0.0f;
         return x * y < largest ? x * y : largest;

@@ -8,7 +8,7 @@
 
 namespace lightcuts {
 
-/// The most that one light of a ClampedLight kind may add at a receiver. The limits hold together, in every channel;
+/// The most that one light of a ClampableLight kind may add at a receiver. The limits hold together, in every channel;
 /// an infinite one is off. A cluster of n lights may add n times as much, so that error bounds stay bounds.
 struct ClampOptions {
     /// Radiance. pre: >= 0.

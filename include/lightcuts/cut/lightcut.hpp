@@ -37,10 +37,10 @@ struct LightcutScratch {
         CutTotals<S, Clamps> totals;
         bool running = false;
     };
-    std::vector<Slot> slots;
+    std::vector<Slot> in_progress;
     std::vector<VisibilityQuery> queries;
     std::vector<float> answers;
-    std::vector<S> tints;  ///< answers that are spectra
+    std::vector<S> transmittances;  ///< answers that are spectra
 };
 
 /// The scratch for shading by a tree or a forest.
@@ -233,8 +233,8 @@ void shade_one_by_one(const Forest& forest, std::span<const Receiver<M>> receive
                       LightcutScratch<typename Forest::spectrum, Forest::clamps>& scratch,
                       const LightcutOptions& options, const Policy& policy) {
     const RefinementOptions refinement = refinement_options(forest, options);
-    if (scratch.slots.empty()) scratch.slots.resize(1);
-    auto& slot = scratch.slots.front();
+    if (scratch.in_progress.empty()) scratch.in_progress.resize(1);
+    auto& slot = scratch.in_progress.front();
     for (std::size_t i = 0; i < receivers.size(); ++i) {
         LightcutProblem<Forest, Receiver<M>, Oracle, Policy> problem(forest, receivers[i], oracle, policy, options,
                                                                      slot.totals, scratch.queries);
@@ -254,10 +254,10 @@ void shade_in_lock_step(const Forest& forest, std::span<const Receiver<M>> recei
         return LightcutProblem<Forest, Receiver<M>, Oracle, Policy>(forest, receivers[i], oracle, policy, options,
                                                                     slot.totals, scratch.queries);
     };
-    if (scratch.slots.size() < receivers.size()) scratch.slots.resize(receivers.size());
+    if (scratch.in_progress.size() < receivers.size()) scratch.in_progress.resize(receivers.size());
     scratch.queries.clear();
     for (std::size_t i = 0; i < receivers.size(); ++i) {
-        auto& slot = scratch.slots[i];
+        auto& slot = scratch.in_progress[i];
         auto problem = problem_of(i, slot);
         slot.refinement.start(problem);
         problem.request(slot.refinement.fresh());
@@ -270,7 +270,7 @@ void shade_in_lock_step(const Forest& forest, std::span<const Receiver<M>> recei
         // Step 2: each takes its answers, in the order of its queries, and asks the next.
         any = false;
         for (std::size_t i = 0; i < receivers.size(); ++i) {
-            auto& slot = scratch.slots[i];
+            auto& slot = scratch.in_progress[i];
             if (!slot.running) continue;
             auto problem = problem_of(i, slot);
             answers = problem.receive(slot.refinement.fresh(), answers);

@@ -9,8 +9,8 @@
 #include "../bound/policy.hpp"
 #include "../core/random.hpp"
 #include "../material/terms.hpp"
-#include "../visibility/lit_side.hpp"
 #include "../visibility/oracle.hpp"
+#include "../visibility/shadow_origin.hpp"
 #include "forest.hpp"
 #include "options.hpp"
 #include "refinement.hpp"
@@ -27,8 +27,8 @@ struct ClampTag {};
 /// were without.
 template <Spectrum S, bool Clamps = false>
 struct CutNode {
-    using light_count = std::conditional_t<Clamps, float, detail::Absent<detail::LightCountTag>>;
-    using channel_mark = std::conditional_t<Clamps, bool, detail::Absent<detail::AllChannelsTag>>;
+    using light_count = std::conditional_t<Clamps, float, detail::Empty<detail::LightCountTag>>;
+    using channel_mark = std::conditional_t<Clamps, bool, detail::Empty<detail::AllChannelsTag>>;
 
     std::uint32_t node = 0;            ///< in its tree
     std::uint32_t representative = 0;  ///< leaf of the tree that stands for the cluster
@@ -61,7 +61,7 @@ struct CutClamp {
 template <Spectrum S, bool Clamps = false>
 struct CutTotals {
     using Sums = detail::ChannelSums<S>;
-    using clamp_type = std::conditional_t<Clamps, CutClamp<S>, detail::Absent<detail::ClampTag>>;
+    using clamp_type = std::conditional_t<Clamps, CutClamp<S>, detail::Empty<detail::ClampTag>>;
 
     Sums total{};    ///< running sum of the estimates, clamped
     Sums largest{};  ///< largest running sum since it was last computed afresh
@@ -175,7 +175,7 @@ public:
             if (n.queried) {
                 forest_.visit(n.kind, [&](const auto& tree) {
                     const auto& light = tree.lights()[tree.topology().item(n.representative)];
-                    detail::on_lit_side(receiver_, light, [&](const auto& lit) {
+                    detail::with_shadow_origin(receiver_, light, [&](const auto& lit) {
                         receive(n, detail::as_factor<S>(oracle_(lit, light)));
                     });
                 });
@@ -307,7 +307,7 @@ private:
     template <class Tree>
     S largest_terms(const Tree&) const {
         float largest = std::numeric_limits<float>::infinity();
-        if constexpr (ClampedLight<typename Tree::light_type>) largest = options_.clamp.terms;
+        if constexpr (ClampableLight<typename Tree::light_type>) largest = options_.clamp.terms;
         return make_spectrum<S>([&](int) { return largest; });
     }
 
@@ -320,8 +320,8 @@ private:
         n.kind = static_cast<std::uint8_t>(kind);
         n.unit_bound = unit_bound;
         if constexpr (clamps) {
-            n.lights = ClampedLight<typename Tree::light_type> ? static_cast<float>(tree.topology().leaf_count(index))
-                                                               : std::numeric_limits<float>::infinity();
+            n.lights = ClampableLight<typename Tree::light_type> ? static_cast<float>(tree.topology().leaf_count(index))
+                                                                 : std::numeric_limits<float>::infinity();
         }
         // A single light is exact.
         if (!tree.topology().is_leaf(index)) {
@@ -365,7 +365,7 @@ private:
         for (int i = 0; i < count; ++i) {
             node& n = *nodes[static_cast<std::size_t>(i)];
             n.terms = terms[static_cast<std::size_t>(i)];
-            if constexpr (ClampedLight<L>) {
+            if constexpr (ClampableLight<L>) {
                 n.terms = detail::at_most(n.terms, options_.clamp.terms);
                 n.all_channels = channel_min(tree.clusters()[n.representative].intensity) > 0.0f;
             }

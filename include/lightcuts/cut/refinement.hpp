@@ -52,7 +52,7 @@ enum class StopReason : std::uint8_t {
 
 struct RefinementOptions {
     /// Largest number of nodes in the cut; the starting frontier is kept even if it is larger.
-    std::size_t max_nodes = std::numeric_limits<std::size_t>::max();
+    std::size_t max_nodes = (std::numeric_limits<std::size_t>::max)();
     /// A round splits nodes down to this fraction of the largest finite priority. 1: one at a time, the order of
     /// the papers; 0.1: a tenth of the rounds for under one per cent more nodes.
     double round_fraction = 0.1;

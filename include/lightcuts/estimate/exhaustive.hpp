@@ -49,7 +49,7 @@ Estimate<forest_spectrum<Lights>> exhaustive(const Lights& lights, const Receive
     scratch.clamped.clear();
     forest.for_each([&](std::uint32_t kind, const auto& tree) {
         using L = typename std::remove_cvref_t<decltype(tree)>::light_type;
-        const bool clamps_kind = ClampedLight<L> && clamp.has_threshold();
+        const bool clamps_kind = ClampableLight<L> && clamp.has_threshold();
         if (clamps_kind != clamps) {
             flush();
             clamps = clamps_kind;

@@ -78,7 +78,7 @@ double probability_of(const Lights& lights, const Receiver<M>& receiver, std::ui
 }
 
 /// What `leaves_of` says of a light of zero intensity, which is not in the tree.
-inline constexpr std::uint32_t no_leaf = std::numeric_limits<std::uint32_t>::max();
+inline constexpr std::uint32_t no_leaf = (std::numeric_limits<std::uint32_t>::max)();
 
 /// The leaf of every light of a tree: for those who know a light and ask for its probability. cost: linear.
 template <Light L>

@@ -4,8 +4,8 @@
 
 #include "../core/assertion.hpp"
 #include "../core/vector.hpp"
+#include "conservative_rounding.hpp"
 #include "material.hpp"
-#include "outward.hpp"
 
 namespace lightcuts {
 

@@ -6,10 +6,10 @@
 #include <glm/vec3.hpp>
 
 #include "../core/cosine.hpp"
+#include "conservative_rounding.hpp"
 #include "direction_caps.hpp"
 #include "half_vector.hpp"
 #include "material.hpp"
-#include "outward.hpp"
 
 namespace lightcuts {
 
@@ -135,7 +135,7 @@ public:
 private:
     /// Upper bound of n . o.
     double most_cosine(const OffsetBox& offsets) const {
-        return detail::turned(clamped_max_cosine(frame_.normal(), offsets, 0.01));
+        return detail::perturbed_cosine(clamped_max_cosine(frame_.normal(), offsets, 0.01));
     }
 
     double root(double cosine) const { return std::sqrt(alpha2_ + (1.0 - alpha2_) * (cosine * cosine)); }
@@ -156,10 +156,11 @@ private:
     S bound(double cosine, const detail::HalfVectorRange& h) const {
         // Beyond alpha = 1 the distribution is largest away from the normal.
         const double value = without_fresnel(cosine > 0.0 ? cosine : 0.0, alpha2_ > 1.0 ? 1.0 : h.sin2);
-        const float weight = detail::padded(schlick(h.facing - 1e-6));  // evaluate_many() knows it to 3e-7
-        const float factor = detail::padded(value);
+        const float weight = detail::with_rounding_margin(
+            schlick(h.facing - 1e-6));  // evaluate_many() knows it to 3e-7
+        const float factor = detail::with_rounding_margin(value);
         return make_spectrum<S>(
-            [&](int i) { return detail::times(channel(f0_, i) * (1.0f - weight) + weight * f90_, factor); });
+            [&](int i) { return detail::positive_product(channel(f0_, i) * (1.0f - weight) + weight * f90_, factor); });
     }
 
     detail::HalfVectorFrame frame_;

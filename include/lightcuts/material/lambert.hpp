@@ -6,8 +6,8 @@
 #include "../core/assertion.hpp"
 #include "../core/cosine.hpp"
 #include "../core/vector.hpp"
+#include "conservative_rounding.hpp"
 #include "material.hpp"
-#include "outward.hpp"
 
 namespace lightcuts {
 

@@ -8,8 +8,8 @@
 #include "../core/assertion.hpp"
 #include "../core/cosine.hpp"
 #include "../core/vector.hpp"
+#include "conservative_rounding.hpp"
 #include "material.hpp"
-#include "outward.hpp"
 
 namespace lightcuts {
 
@@ -44,7 +44,7 @@ public:
     S upper_bound(const OffsetBox& offsets) const {
         if (detail::lies_below(normal_, offsets) || detail::lies_below(mirror_, offsets)) return black<S>();
         const double along = clamped_max_cosine(mirror_, offsets, 0.01 / (1.0 + exponent_));
-        return bound(detail::turned(along), detail::turned(clamped_max_cosine(normal_, offsets)));
+        return bound(detail::perturbed_cosine(along), detail::perturbed_cosine(clamped_max_cosine(normal_, offsets)));
     }
     /// cost: about 20 ns each
     void quick_upper_bounds(const OffsetBlock& offsets, LaneSpectra<S>& bounds) const {

@@ -15,7 +15,7 @@ spectrum_of<L> unshadowed_terms(const Receiver<M>& receiver, const L& light) {
     using S = spectrum_of<L>;
     const Incidence arriving = incidence(light, receiver.position);
     if (!(arriving.geometric > 0.0)) return black<S>();
-    constexpr double largest = std::numeric_limits<float>::max();
+    constexpr double largest = (std::numeric_limits<float>::max)();
     const double geometric = arriving.geometric < largest ? arriving.geometric : largest;
     return finite(S(receiver.material.evaluate(arriving.to_light) * static_cast<float>(geometric)));
 }

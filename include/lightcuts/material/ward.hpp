@@ -4,10 +4,10 @@
 
 #include <glm/vec3.hpp>
 
+#include "conservative_rounding.hpp"
 #include "direction_caps.hpp"
 #include "half_vector.hpp"
 #include "material.hpp"
-#include "outward.hpp"
 
 namespace lightcuts {
 
@@ -62,7 +62,7 @@ public:
     S upper_bound(const OffsetBox& offsets) const {
         const glm::dvec3& n = frame_.normal();
         if (!(frame_.cos_view() > 0.0) || detail::lies_below(n, offsets)) return black<S>();
-        const double most = detail::turned(clamped_max_cosine(n, offsets, 0.01));
+        const double most = detail::perturbed_cosine(clamped_max_cosine(n, offsets, 0.01));
         const double least = min_cosine(n, offsets, 0.01) - detail::direction_error;
         return bound(least, most, frame_.template range_over<false>(detail::rounded_directions(offsets)).sin2);
     }

@@ -91,7 +91,7 @@ public:
 
     /// Calls `f(light, particle)`. `u`: which light; `uv`, `w`: which way.
     template <class F>
-    void emit(double u, const glm::dvec2& uv, double w, F&& f) const {
+    void emit_ray(double u, const glm::dvec2& uv, double w, F&& f) const {
         const std::size_t at = choice_(u);
         sources_.for_each([&](std::uint32_t kind, const auto& lights) {
             if (at < first_[kind] || at - first_[kind] >= lights.size()) return;

@@ -98,7 +98,7 @@ void leave_light(const Scene& scene, const Hit& hit, const S& power, double roul
     S transmitted = black<S>();
     if constexpr (TransmissiveParticleScene<Scene, S>) transmitted = power * S(scene.diffuse_transmittance(hit));
     const double behind = channel_sum(transmitted);
-    const double whole = std::max(front + behind, 1.0);
+    const double whole = (std::max)(front + behind, 1.0);
     const auto add = [&](const glm::vec3& position, const glm::vec3& normal, const S& leaving, double sum) {
         const double scale = whole / (std::numbers::pi * sum);
         lights.push_back({position, normal, S(leaving * static_cast<float>(scale)), {}});
@@ -125,7 +125,7 @@ void follow(const Scene& scene, const Emission& emission, const Numbers& numbers
         return u;
     };
     const std::array<double, 4> start = four_numbers(0);
-    emission.emit(start[0], {start[2], start[3]}, start[1], [&](const auto& light, const auto& emitted) {
+    emission.emit_ray(start[0], {start[2], start[3]}, start[1], [&](const auto& light, const auto& emitted) {
         using L = std::remove_cvref_t<decltype(light)>;
         S power = emitted.power;
         glm::vec3 direction(emitted.flight.direction);
@@ -143,7 +143,7 @@ void follow(const Scene& scene, const Emission& emission, const Numbers& numbers
             const double roulette = drawn[3];
             leave_light(scene, *hit, power, roulette, tally.lights);
             const auto below_one = [&](std::size_t d) {
-                return std::min(static_cast<float>(drawn[d]), 1.0f - 0x1p-24f);
+                return (std::min)(static_cast<float>(drawn[d]), 1.0f - 0x1p-24f);
             };
             const glm::vec3 u(below_one(0), below_one(1), below_one(2));
             const ScatteredParticle<S> scattered = scene.scatter(*hit, direction, u);
@@ -168,7 +168,7 @@ ParticleTally<typename Emission::S> follow_all(const Scene& scene, const Emissio
     std::vector<Tally> tallies((count + block - 1) / block);
     execute(tallies.size(), [&](std::size_t b) {
         const auto begin = static_cast<std::uint32_t>(b) * block;
-        const std::uint32_t end = std::min(begin + block, count);
+        const std::uint32_t end = (std::min)(begin + block, count);
         for (std::uint32_t i = begin; i < end; ++i) {
             follow(scene, emission, numbers, first + i, longest_path, tallies[b]);
         }

@@ -75,22 +75,22 @@ ClusterTree divide(std::span<const Item> items, const Splitter& splitter, const 
 
     // Step 1: split level by level down to parts of a fixed size, whatever the number of threads.
     const std::size_t grain = std::max<std::size_t>(items.size() / 128, 4096);
-    std::vector<Part<Record>> large, small;
-    const auto file = [&](const Part<Record>& part) { (part.records.size() > grain ? large : small).push_back(part); };
+    std::vector<Part<Record>> coarse, fine;
+    const auto file = [&](const Part<Record>& part) { (part.records.size() > grain ? coarse : fine).push_back(part); };
     file({records, Bounds<Record>::none()});
-    while (!large.empty()) {
-        std::vector<Halves<Record>> halves(large.size());
-        execute(large.size(), [&](std::size_t i) { halves[i] = divider.split(large[i]); });
-        large.clear();
+    while (!coarse.empty()) {
+        std::vector<Halves<Record>> halves(coarse.size());
+        execute(coarse.size(), [&](std::size_t i) { halves[i] = divider.split(coarse[i]); });
+        coarse.clear();
         for (const Halves<Record>& h : halves) {
             file(h.left);
             file(h.right);
         }
     }
     // Step 2: each part is a task of its own.
-    execute(small.size(), [&](std::size_t i) {
-        divider.build(small[i]);
-        progress(small[i].records.size());
+    execute(fine.size(), [&](std::size_t i) {
+        divider.build(fine[i]);
+        progress(fine[i].records.size());
     });
     return ClusterTree(std::move(words));
 }

@@ -35,7 +35,7 @@ void check_items(std::span<const Item> items) {
             LIGHTCUTS_THROW(invalid_input("item " + std::to_string(i) + ": " + what));
         };
         if (!is_finite(item.position)) refuse("the position is not finite");
-        if (!(item.weight > 0.0f && item.weight <= std::numeric_limits<float>::max())) {
+        if (!(item.weight > 0.0f && item.weight <= (std::numeric_limits<float>::max)())) {
             refuse("the weight is not positive and finite; leave out lights that are dark");
         }
         if constexpr (HasAxis<Item>) {
@@ -61,10 +61,10 @@ struct Frame {
         for (const Item& item : items) {
             const std::array<float, 3> p{item.position.x, item.position.y, item.position.z};
             for (std::size_t a = 0; a < 3; ++a) {
-                lo[a] = std::min(lo[a], p[a]);
-                hi[a] = std::max(hi[a], p[a]);
+                lo[a] = (std::min)(lo[a], p[a]);
+                hi[a] = (std::max)(hi[a], p[a]);
             }
-            weight = std::max(weight, item.weight);
+            weight = (std::max)(weight, item.weight);
         }
         Frame frame;
         double diagonal2 = 0;

@@ -30,7 +30,7 @@ public:
             }
             keys[s].index = static_cast<std::uint32_t>(s);
         }
-        sort(keys, static_cast<float>(std::min(direction, 1e6)));
+        sort(keys, static_cast<float>((std::min)(direction, 1e6)));
         std::vector<std::uint32_t> order(keys.size());
         for (std::size_t s = 0; s < keys.size(); ++s) order[s] = keys[s].index;
         return order;
@@ -61,8 +61,8 @@ private:
         std::array<float, axis_count> lo = keys[0].coordinate, hi = lo;
         for (const Key& k : keys) {
             for (std::size_t a = 0; a < axis_count; ++a) {
-                lo[a] = std::min(lo[a], k.coordinate[a]);
-                hi[a] = std::max(hi[a], k.coordinate[a]);
+                lo[a] = (std::min)(lo[a], k.coordinate[a]);
+                hi[a] = (std::max)(hi[a], k.coordinate[a]);
             }
         }
         std::size_t longest = 0;

@@ -165,7 +165,7 @@ private:
         if constexpr (DirectionalLight<L>) {
             check_unit(to_vec3(detail::direction_of(light)), index, "direction is not of unit length");
         }
-        item.position = place_of(light);
+        item.position = position_or_direction(light);
         if (!is_finite(item.position)) reject(index, "position is not finite");
         if constexpr (cluster::oriented) {
             item.axis = to_vec3(detail::axis_of(light));

@@ -56,7 +56,7 @@ std::unique_ptr<record_of<Item>[]> make_records(std::span<const Item> items) {
         auto& r = records[i];
         const auto position = frame.position(item.position);
         std::copy(position.begin(), position.end(), r.lane);
-        r.lane[3] = std::max(static_cast<float>(frame.weight(item.weight)), std::numeric_limits<float>::min());
+        r.lane[3] = (std::max)(static_cast<float>(frame.weight(item.weight)), (std::numeric_limits<float>::min)());
         if constexpr (HasAxis<Item>) {
             r.lane[4] = item.axis.x;
             r.lane[5] = item.axis.y;
@@ -111,8 +111,9 @@ struct Bounds {
         std::array<float, Record::axes.size()> gains;
         for (std::size_t i = 0; i < gains.size(); ++i) gains[i] = extent2(Record::axes[i]);
         if constexpr (lanes == 8) {
-            const float of_position = 1 / std::max(std::sqrt(diagonal2()), std::numeric_limits<float>::min());
-            const float of_axis = axis_share / std::max(std::sqrt(axis_diagonal2()), std::numeric_limits<float>::min());
+            const float of_position = 1 / (std::max)(std::sqrt(diagonal2()), (std::numeric_limits<float>::min)());
+            const float of_axis = axis_share /
+                                  (std::max)(std::sqrt(axis_diagonal2()), (std::numeric_limits<float>::min)());
             for (std::size_t i = 0; i < gains.size(); ++i) gains[i] *= i < 3 ? of_position : of_axis;
         }
         return gains;

@@ -115,7 +115,7 @@ constexpr auto as_factor(const A& answer) {
 template <class O, class S, class Scratch>
 std::vector<many_answer<O, S>>& answers_for(Scratch& scratch) {
     if constexpr (TintingOracle<O, S>) {
-        return scratch.tints;
+        return scratch.transmittances;
     } else {
         return scratch.answers;
     }
