@@ -44,7 +44,7 @@ void descend(const Tree& tree, std::uint32_t kind, const Receiver<M>& receiver, 
             const Visit& visit = scratch.visits.back();
             const bool leaf = topology.is_leaf(visit.node);
             if (visit.begin == visit.end) {
-                // Nobody came.
+                // No sample reached this node.
             } else if (leaf) {
                 scratch.draws.push_back({topology.item(visit.node), kind, visit.weight * (visit.end - visit.begin)});
             } else {

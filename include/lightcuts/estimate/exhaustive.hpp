@@ -70,7 +70,7 @@ Estimate<forest_spectrum<Lights>> exhaustive(const Lights& lights, const Receive
     return result;
 }
 
-/// The same in one call, by the lights of a tree or a forest.
+/// The exact sum over all lights, once, with storage of its own. cost: it allocates.
 template <TreeOrForest Lights, class M, class Oracle = AlwaysVisible>
 Estimate<forest_spectrum<Lights>> exhaustive(const Lights& lights, const Receiver<M>& receiver,
                                              const Oracle& oracle = {}, const ClampOptions& clamp = {}) {

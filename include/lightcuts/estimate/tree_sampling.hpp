@@ -125,7 +125,7 @@ Estimate<forest_spectrum<Lights>> tree_sampling(const Lights& lights, const Rece
     return detail::estimate_draws(forest, receiver, oracle, scratch);
 }
 
-/// The same in one call, by the lights of a tree or a forest.
+/// A single estimate by tree sampling, with storage of its own. cost: it allocates.
 template <TreeOrForest Lights, class M, class Oracle, class Policy = TwoStageBounds>
 Estimate<forest_spectrum<Lights>> tree_sampling(const Lights& lights, const Receiver<M>& receiver, const Oracle& oracle,
                                                 std::uint32_t samples, std::uint64_t seed, const Policy& policy = {}) {

@@ -61,7 +61,7 @@ Estimate<forest_spectrum<Lights>> ward(const Lights& lights, const Receiver<M>& 
     return result;
 }
 
-/// The same in one call, by the lights of a tree or a forest.
+/// A single estimate by Ward's adaptive shadow testing, with storage of its own. cost: it allocates.
 template <TreeOrForest Lights, class M, class Oracle>
 Estimate<forest_spectrum<Lights>> ward(const Lights& lights, const Receiver<M>& receiver, const Oracle& oracle,
                                        float threshold) {

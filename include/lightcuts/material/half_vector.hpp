@@ -33,7 +33,7 @@ struct HalfVectorRange {
     double facing;
 };
 
-/// The same over several sets of directions.
+/// Lower bounds of a HalfVector's sin2 and facing, over the directions of each of several caps.
 struct HalfVectorRanges {
     alignas(32) Lanes sin2;
     alignas(32) Lanes facing;

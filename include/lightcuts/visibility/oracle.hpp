@@ -144,7 +144,7 @@ using place_box = std::conditional_t<DirectionalLight<L>, DirectionBox, Box>;
 /// An oracle that also says of a whole cluster how much can be visible of it: `upper_bound(receiver, box)`, no light in
 /// `box` is visible by a larger fraction, in any channel. `box` is a Box of positions for point lights, a DirectionBox
 /// for directional ones; a cut makes use of the one it finds. Asked before a cluster is split: what is certainly hidden
-/// is never refined. It pays where a shadow ray is much dearer than this bound, or where much is hidden.
+/// is never refined. It pays where a shadow ray is much more expensive than this bound, or where much is hidden.
 template <class O, class R, class L>
 concept BoundedOracle = requires(const O& visible, const R& receiver, const place_box<L>& box) {
     { visible.upper_bound(receiver, box) } -> std::convertible_to<float>;
