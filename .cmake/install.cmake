@@ -4,10 +4,14 @@ include(CMakePackageConfigHelpers)
 
 set(package_directory ${CMAKE_INSTALL_DATADIR}/cmake/lightcuts)
 
-install(TARGETS lightcuts EXPORT lightcuts-targets FILE_SET HEADERS)
+install(TARGETS lightcuts EXPORT lightcuts-targets)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/lightcuts DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+        FILES_MATCHING PATTERN "*.hpp" PATTERN adapt EXCLUDE)
 install(EXPORT lightcuts-targets NAMESPACE lightcuts:: DESTINATION ${package_directory})
 if(TARGET lightcuts_embree)
-  install(TARGETS lightcuts_embree EXPORT lightcuts-embree-targets FILE_SET HEADERS)
+  install(TARGETS lightcuts_embree EXPORT lightcuts-embree-targets)
+  install(FILES ${PROJECT_SOURCE_DIR}/include/lightcuts/adapt/embree.hpp
+          DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lightcuts/adapt)
   install(EXPORT lightcuts-embree-targets NAMESPACE lightcuts:: DESTINATION ${package_directory})
 endif()
 

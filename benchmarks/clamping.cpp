@@ -5,7 +5,7 @@
 #include <utility>
 
 #include <CLI/CLI.hpp>
-#include <lightcuts/light/clamped.hpp>
+#include <lightcuts/light/clampable.hpp>
 #include <nlohmann/json.hpp>
 
 #include "figures.hpp"
@@ -17,7 +17,7 @@ using namespace benchmark;
 using lightcuts::ClampOptions;
 using lightcuts::CutResult;
 using Direct = lightcuts::OrientedPointLight<>;
-using Virtual = lightcuts::VirtualLight<>;
+using Virtual = lightcuts::VirtualPointLight<>;
 
 /// The oriented lights of a workload.
 std::vector<Direct> oriented_lights(const Workload& work) {

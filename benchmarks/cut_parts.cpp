@@ -3,7 +3,7 @@
 #include <array>
 #include <type_traits>
 
-#include <lightcuts/light/clamped.hpp>
+#include <lightcuts/light/clampable.hpp>
 
 namespace benchmark {
 
@@ -11,7 +11,7 @@ namespace {
 
 template <class L>
 constexpr double Parts::*part_of() {
-    if constexpr (lightcuts::ClampedLight<L>) {
+    if constexpr (lightcuts::ClampableLight<L>) {
         return &Parts::indirect;
     } else if constexpr (lightcuts::DirectionalLight<L>) {
         return &Parts::environment;

@@ -110,7 +110,7 @@ private:
         }
     }
 
-    static float place_of(int i, int count, float half) {
+    static float position_or_direction(int i, int count, float half) {
         return half * (2.0f * static_cast<float>(i) / static_cast<float>(count - 1) - 1.0f);
     }
 
@@ -121,10 +121,10 @@ private:
         };
         for (const float side : {-1.0f, 1.0f}) {
             for (int i = 0; i < columns_across; ++i) {
-                column(place_of(i, columns_across, half_width), side * half_length);
+                column(position_or_direction(i, columns_across, half_width), side * half_length);
             }
             for (int i = 1; i + 1 < columns_along; ++i) {
-                column(side * half_width, place_of(i, columns_along, half_length));
+                column(side * half_width, position_or_direction(i, columns_along, half_length));
             }
         }
     }
@@ -147,12 +147,13 @@ private:
         ring(0.46f, 0.85f, h + entablature - 0.08f, h + entablature);
         for (const float side : {-1.0f, 1.0f}) {
             for (int i = 0; i < 2 * columns_across - 1; ++i) {
-                m_.stand({place_of(i, 2 * columns_across - 1, half_width), 0, side * (half_length + 0.43f)},
-                         side > 0 ? 0.0f : 180.0f);
+                m_.stand(
+                    {position_or_direction(i, 2 * columns_across - 1, half_width), 0, side * (half_length + 0.43f)},
+                    side > 0 ? 0.0f : 180.0f);
                 add_triglyph(m_, column_height + 0.6f, 0.48f, stone_);
             }
             for (int i = 1; i < 2 * columns_along - 2; ++i) {
-                m_.stand({side * (half_width + 0.43f), 0, place_of(i, 2 * columns_along - 1, half_length)},
+                m_.stand({side * (half_width + 0.43f), 0, position_or_direction(i, 2 * columns_along - 1, half_length)},
                          side * 90.0f);
                 add_triglyph(m_, column_height + 0.6f, 0.48f, stone_);
             }
@@ -179,7 +180,7 @@ private:
             m_.quad(ridge - glm::vec3(0, 0.12f, 0), {0, 0, -side * 2.0f * z}, down);
             // Rows of cover tiles run down the slope.
             for (int i = 0; i <= 48; ++i) {
-                const float at = place_of(i, 49, z - 0.1f);
+                const float at = position_or_direction(i, 49, z - 0.1f);
                 const std::array<glm::vec3, 2> path{glm::vec3(0.0f, eaves + rise, at),
                                                     glm::vec3(0.0f, eaves + rise, at) + 1.01f * down};
                 m_.tube(path, 0.07f, 10, false);
@@ -198,7 +199,7 @@ private:
         const float x = half_width - 0.46f;
         const float z = half_length - 0.46f;
         for (int i = 0; i < 28; ++i) {
-            const float at = place_of(i, 28, z - 0.3f);
+            const float at = position_or_direction(i, 28, z - 0.3f);
             m_.box({-x, ceiling - 0.26f, at - 0.12f}, {x, ceiling - 0.001f, at + 0.12f});
         }
         for (const float at : {-5.0f, -3.9f, 3.9f, 5.0f}) {
@@ -234,7 +235,7 @@ private:
         m_.box({-1.6f, 4.0f, cella_z - 0.02f}, {1.6f, 4.4f, cella_z + 0.12f});
         for (const float sx : {-1.0f, 1.0f}) {
             for (int i = 0; i < 7; ++i) {
-                const float z = place_of(i, 7, cella_z - 0.2f);
+                const float z = position_or_direction(i, 7, cella_z - 0.2f);
                 const float x = sx * cella_x;
                 m_.box({std::min(x, x + sx * 0.1f), 0.003f, z - 0.28f}, {std::max(x, x + sx * 0.1f), 4.55f, z + 0.28f});
             }
@@ -246,7 +247,7 @@ private:
         Dice dice(419);
         for (const float side : {-1.0f, 1.0f}) {
             for (int i = 0; i < 6; ++i) {
-                const float z = place_of(i, 7, cella_z - 0.2f) + (cella_z - 0.2f) / 6.0f;
+                const float z = position_or_direction(i, 7, cella_z - 0.2f) + (cella_z - 0.2f) / 6.0f;
                 m_.stand({side * (cella_x + 0.62f), 0.001f, z}, side * 90.0f);
                 if (i % 2 == 1) {
                     add_statue(m_, 2.35f, stone_, i == 3 ? bronze_ : marble_);

@@ -49,7 +49,7 @@ glm::vec3 shadow_end(const Scene& scene, const glm::vec3& from, const L& light) 
     } else if constexpr (std::derived_from<L, lightcuts::OrientedPointLight<>>) {
         return end_before_surface(from, light.position, light.axis);
     } else {
-        return end_before_point(from, lightcuts::place_of(light));
+        return end_before_point(from, lightcuts::position_or_direction(light));
     }
 }
 
@@ -74,7 +74,7 @@ public:
     glm::vec3 operator()(const R& receiver, const L& light) const {
         const glm::vec3 from = receiver.shadow_origin;
         if constexpr (lightcuts::DirectionalLight<L>) {
-            return rays_.to_infinity(from, lightcuts::place_of(light));
+            return rays_.to_infinity(from, lightcuts::position_or_direction(light));
         } else {
             const glm::vec3 end = shadow_end(scene_, from, light);
             return end == from ? glm::vec3(1.0f) : rays_.to_point(from, end);

@@ -10,7 +10,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
-#include <lightcuts/light/clamped.hpp>
+#include <lightcuts/light/clampable.hpp>
 #include <lightcuts/light/directional.hpp>
 #include <lightcuts/light/omni.hpp>
 #include <lightcuts/light/oriented.hpp>
@@ -146,7 +146,7 @@ struct Scene {
     std::vector<lightcuts::DistantLight<>> directional;
     std::vector<lightcuts::SphereLight<>> spheres;
     std::vector<lightcuts::SpherePointLight<>> sphere_points;  ///< in `spheres`
-    std::vector<lightcuts::VirtualLight<>> virtual_lights;
+    std::vector<lightcuts::VirtualPointLight<>> virtual_lights;
     std::size_t environment_lights = 0;  ///< of `directional`: those of the environment map
     std::size_t sun_lights = 0;          ///< likewise
     std::size_t sky_lights = 0;

@@ -20,7 +20,7 @@ using ForestWith =
 class SceneLights {
 public:
     using DirectForest = ForestWith<>;
-    using Forest = ForestWith<lightcuts::VirtualLight<>>;
+    using Forest = ForestWith<lightcuts::VirtualPointLight<>>;
     static constexpr std::uint32_t oriented_kind = 1;
     static constexpr std::uint32_t sphere_kind = 4;
     static constexpr std::uint32_t virtual_kind = 5;
@@ -45,7 +45,7 @@ private:
     lightcuts::LightTree<lightcuts::SpotLight<>> spots_;
     lightcuts::LightTree<lightcuts::DistantLight<>> directional_;
     lightcuts::LightTree<lightcuts::SpherePointLight<>> spheres_;
-    lightcuts::LightTree<lightcuts::VirtualLight<>> virtual_;
+    lightcuts::LightTree<lightcuts::VirtualPointLight<>> virtual_;
     DirectForest direct_{omni_, oriented_, spots_, directional_, spheres_};
     Forest forest_{omni_, oriented_, spots_, directional_, spheres_, virtual_};
 };

@@ -33,6 +33,12 @@ public:
         return sum;
     }
 
+    void evaluate_many(const lightcuts::LaneVectors& to_lights, int count,
+                       lightcuts::LaneSpectra<glm::vec3>& values) const {
+        values.fill(glm::vec3(0.0f));
+        for_each_component([&](const auto& part) { lightcuts::add_lanes(part, to_lights, count, values); });
+    }
+
     glm::vec3 upper_bound(const lightcuts::OffsetBox& offsets) const {
         glm::vec3 sum(0.0f);
         for_each_component([&](const auto& part) { sum += part.upper_bound(offsets); });

@@ -2,6 +2,10 @@
 
 /// Everything that shading by lightcuts needs. Library headers never include this file.
 
+#if !(__cplusplus >= 202002L) && !(defined(_MSVC_LANG) && _MSVC_LANG >= 202002L)
+#error "lightcuts needs C++20: compile with -std=c++20 or later (MSVC: /std:c++20)"
+#else
+
 #include "cut/lightcut.hpp"
 #include "estimate/adaptive_splitting.hpp"
 #include "estimate/exhaustive.hpp"
@@ -9,12 +13,13 @@
 #include "estimate/stochastic_lightcuts.hpp"
 #include "estimate/tree_sampling.hpp"
 #include "estimate/ward.hpp"
-#include "light/clamped.hpp"
+#include "light/clampable.hpp"
 #include "light/directional.hpp"
 #include "light/omni.hpp"
 #include "light/oriented.hpp"
 #include "light/spot.hpp"
 #include "material/above_horizon.hpp"
+#include "material/bounded_by.hpp"
 #include "material/capped.hpp"
 #include "material/ggx.hpp"
 #include "material/lambert.hpp"
@@ -27,3 +32,5 @@
 #include "tree/light_tree.hpp"
 #include "tree/summary.hpp"
 #include "tree/validate.hpp"
+
+#endif

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -67,6 +68,25 @@ private:
     std::array<float, 5> at_{};
 };
 inline BandsExpression::operator Bands() const { return Bands(at_); }
+
+/// A spectrum whose default constructor leaves what is no number, and whose assignment returns nothing.
+class Unset {
+public:
+    static constexpr int channels = 2;
+    Unset() : at_{std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::quiet_NaN()} {}
+    Unset(float a, float b) : at_{a, b} {}
+    Unset(const Unset&) = default;
+    void operator=(const Unset& other) { at_ = other.at_; }
+    float operator[](int i) const { return at_[static_cast<std::size_t>(i)]; }
+    float& operator[](int i) { return at_[static_cast<std::size_t>(i)]; }
+
+    friend Unset operator+(const Unset& a, const Unset& b) { return {a[0] + b[0], a[1] + b[1]}; }
+    friend Unset operator*(const Unset& a, const Unset& b) { return {a[0] * b[0], a[1] * b[1]}; }
+    friend Unset operator*(const Unset& a, float k) { return {a[0] * k, a[1] * k}; }
+
+private:
+    std::array<float, 2> at_;
+};
 
 /// A light that has a position and an intensity, as functions, and cannot be copied.
 class LeastLight : Pinned {
@@ -163,7 +183,7 @@ struct LeastBlade : private Pinned {
     LeastBlade() : Pinned(0) {}
     template <class R, class L>
     bool operator()(const R& receiver, const L& light) const {
-        return (receiver.shadow_origin.z > 0.0f) == (place_of(light).z > 0.0f);
+        return (receiver.shadow_origin.z > 0.0f) == (position_or_direction(light).z > 0.0f);
     }
 };
 struct LeastBatchedBlade : private Pinned {

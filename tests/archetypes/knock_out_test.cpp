@@ -47,15 +47,23 @@ struct NoChannels {
     friend NoChannels operator*(const NoChannels& a, const NoChannels&) { return a; }
     friend NoChannels operator*(const NoChannels& a, float) { return a; }
 };
-struct NoDarkness : Bare {
-    explicit NoDarkness(int) {}
-    friend NoDarkness operator+(const NoDarkness& a, const NoDarkness&) { return a; }
-    friend NoDarkness operator*(const NoDarkness& a, const NoDarkness&) { return a; }
-    friend NoDarkness operator*(const NoDarkness& a, float) { return a; }
+struct NoDefault : Bare {
+    explicit NoDefault(int) {}
+    friend NoDefault operator+(const NoDefault& a, const NoDefault&) { return a; }
+    friend NoDefault operator*(const NoDefault& a, const NoDefault&) { return a; }
+    friend NoDefault operator*(const NoDefault& a, float) { return a; }
 };
-static_assert(Spectrum<Bands> && Spectrum<float> && Spectrum<double> && Spectrum<glm::vec3>);
+struct NoAssignment : Bare {
+    NoAssignment() = default;
+    NoAssignment(const NoAssignment&) = default;
+    NoAssignment& operator=(const NoAssignment&) = delete;
+    friend NoAssignment operator+(const NoAssignment& a, const NoAssignment&) { return a; }
+    friend NoAssignment operator*(const NoAssignment& a, const NoAssignment&) { return a; }
+    friend NoAssignment operator*(const NoAssignment& a, float) { return a; }
+};
+static_assert(Spectrum<Bands> && Spectrum<Unset> && Spectrum<float> && Spectrum<double> && Spectrum<glm::vec3>);
 static_assert(!Spectrum<NoSum> && !Spectrum<NoProduct> && !Spectrum<NoScale> && !Spectrum<NoChannels> &&
-              !Spectrum<NoDarkness>);
+              !Spectrum<NoDefault> && !Spectrum<NoAssignment>);
 static_assert(!Spectrum<int> && !Spectrum<std::string>);
 
 // Light

@@ -61,6 +61,7 @@ using namespace foreign_spectra;
 static_assert(Spectrum<float> && Spectrum<double> && Spectrum<glm::vec3> && Spectrum<Bands> && Spectrum<Colour>);
 static_assert(!Spectrum<NoChannels> && !Spectrum<int*>);
 static_assert(channels_of<float> == 1 && channels_of<glm::vec3> == 3 && channels_of<Bands> == 4);
+static_assert(black<float>() == 0.0f && is_black(black<glm::vec3>()));
 static_assert(channel_sum(glm::vec3(1.0f, 2.0f, 4.0f)) == 7.0);
 
 template <class S>
@@ -75,7 +76,7 @@ void check_channels() {
     EXPECT_EQ(channel_sum(s), sum);
     EXPECT_EQ(channel_max(s), 0.5f + static_cast<float>(n));
     EXPECT_EQ(channel_min(s), 1.5f);
-    EXPECT_TRUE(is_black(S{}));
+    EXPECT_TRUE(is_black(black<S>()));
     EXPECT_FALSE(is_black(s));
 }
 

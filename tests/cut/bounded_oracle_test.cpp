@@ -24,7 +24,7 @@ struct Curtain {
 
     template <class R, Light L>
     float operator()(const R&, const L& light) const {
-        return place_of(light).x > wall ? share : 1.0f;
+        return position_or_direction(light).x > wall ? share : 1.0f;
     }
 };
 

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <lightcuts/cut/lightcut.hpp>
-#include <lightcuts/light/clamped.hpp>
+#include <lightcuts/light/clampable.hpp>
 #include <lightcuts/light/oriented.hpp>
 #include "support/random.hpp"
 
@@ -20,21 +20,22 @@ namespace {
 using V = glm::vec3;
 
 // Kinds are clamped by their mark alone, and forests without such kinds carry nothing.
-static_assert(!ClampedLight<OrientedPointLight<>> && ClampedLight<VirtualLight<>>);
-static_assert(OrientedLight<VirtualLight<>> && sizeof(VirtualLight<>) == sizeof(OrientedPointLight<>));
-static_assert(sizeof(LightCluster<VirtualLight<>>) == sizeof(LightCluster<OrientedPointLight<>>));
-static_assert(!LightForest<OrientedPointLight<>>::clamps && LightForest<OrientedPointLight<>, VirtualLight<>>::clamps);
+static_assert(!ClampableLight<OrientedPointLight<>> && ClampableLight<VirtualPointLight<>>);
+static_assert(OrientedLight<VirtualPointLight<>> && sizeof(VirtualPointLight<>) == sizeof(OrientedPointLight<>));
+static_assert(sizeof(LightCluster<VirtualPointLight<>>) == sizeof(LightCluster<OrientedPointLight<>>));
+static_assert(!LightForest<OrientedPointLight<>>::clamps &&
+              LightForest<OrientedPointLight<>, VirtualPointLight<>>::clamps);
 static_assert(sizeof(CutNode<V>) == 60 && sizeof(CutNode<V, true>) == 64);
 static_assert(sizeof(detail::RunningTotal<V>) == 4 * sizeof(detail::RunningTotal<V>::Sums));
 static_assert(std::is_same_v<scratch_of<LightTree<OrientedPointLight<>>>, LightcutScratch<V>>);
-static_assert(std::is_same_v<scratch_of<LightTree<VirtualLight<>>>, LightcutScratch<V, true>>);
+static_assert(std::is_same_v<scratch_of<LightTree<VirtualPointLight<>>>, LightcutScratch<V, true>>);
 
 struct MarkedByTraits {
     V position{}, intensity{};
 };
 struct MarkedAsNot {
     V position{}, intensity{};
-    static constexpr bool clamped = false;
+    static constexpr bool clampable = false;
 };
 
 }  // namespace
@@ -42,13 +43,13 @@ struct MarkedAsNot {
 
 template <>
 struct lightcuts::light_traits<lightcuts::test::MarkedByTraits> {
-    static constexpr bool clamped = true;
+    static constexpr bool clampable = true;
 };
 
 namespace lightcuts::test {
 namespace {
 
-static_assert(ClampedLight<MarkedByTraits> && !ClampedLight<MarkedAsNot>);
+static_assert(ClampableLight<MarkedByTraits> && !ClampableLight<MarkedAsNot>);
 
 struct Contribution {
     float raw;

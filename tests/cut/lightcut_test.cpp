@@ -156,7 +156,7 @@ TEST(Shade, StartsWithAllLightsWhereTheyAreFew) {
 TEST(Shade, OfFewLightsIsTheSumHoweverItIsAskedFor) {
     Room<V> room(13);
     const auto omni = room.omni(40);
-    std::vector<VirtualLight<V>> reflected;
+    std::vector<VirtualPointLight<V>> reflected;
     for (const auto& light : room.oriented(200)) reflected.push_back({light});
     const LightTree a(omni, {.representatives = 8});
     const LightTree b(reflected, {.representatives = 8});

@@ -16,7 +16,7 @@
 
 #include <lightcuts/cut/lightcut.hpp>
 #include <lightcuts/estimate/exhaustive.hpp>
-#include <lightcuts/light/clamped.hpp>
+#include <lightcuts/light/clampable.hpp>
 #include <lightcuts/light/directional.hpp>
 #include <lightcuts/light/omni.hpp>
 #include <lightcuts/light/oriented.hpp>
@@ -36,7 +36,7 @@ namespace {
 using namespace lightcuts;
 using V = glm::vec3;
 using Forest = LightForest<OmniLight<V>, OmniLight<V, PolynomialFalloff>, OrientedPointLight<V>, SpotLight<V>,
-                           DistantLight<V>, VirtualLight<V>>;
+                           DistantLight<V>, VirtualPointLight<V>>;
 
 /// Numbers made of bytes; zeros when they are used up.
 class Bytes {
@@ -101,7 +101,7 @@ struct Curtain {
 
     template <class R, class L>
     float operator()(const R&, const L& light) const {
-        const V place = place_of(light);
+        const V place = position_or_direction(light);
         std::uint64_t bits = seed;
         for (int i = 0; i < 3; ++i) bits = hash_keys(bits, std::bit_cast<std::uint32_t>(place[i]));
         return seed == 0 ? 1.0f : bits % 4 == 0 ? 0.0f : bits % 4 == 1 ? 0.25f : 1.0f;
@@ -114,7 +114,7 @@ struct Lights {
     std::vector<OrientedPointLight<V>> oriented;
     std::vector<SpotLight<V>> spot;
     std::vector<DistantLight<V>> distant;
-    std::vector<VirtualLight<V>> virtual_lights;
+    std::vector<VirtualPointLight<V>> virtual_lights;
 };
 
 Lights read_lights(Bytes& bytes) {

@@ -10,7 +10,7 @@
 
 #include <lightcuts/cut/lightcut.hpp>
 #include <lightcuts/estimate/exhaustive.hpp>
-#include <lightcuts/light/clamped.hpp>
+#include <lightcuts/light/clampable.hpp>
 #include <lightcuts/light/oriented.hpp>
 #include <lightcuts/material/lambert.hpp>
 #include <lightcuts/material/phong.hpp>
@@ -21,7 +21,7 @@ namespace lightcuts::test {
 namespace {
 
 using V = glm::vec3;
-using Virtual = VirtualLight<float>;
+using Virtual = VirtualPointLight<float>;
 
 const Receiver<Lambert<float>> floor_point(V(0.0f), Lambert<float>{{0.0f, 0.0f, 1.0f}, 0.5f});
 

@@ -9,7 +9,7 @@
 
 #include <lightcuts/cut/lightcut.hpp>
 #include <lightcuts/estimate/exhaustive.hpp>
-#include <lightcuts/light/clamped.hpp>
+#include <lightcuts/light/clampable.hpp>
 #include <lightcuts/light/oriented.hpp>
 #include <lightcuts/material/lambert.hpp>
 #include <lightcuts/material/receiver.hpp>
@@ -19,7 +19,7 @@ namespace {
 
 using V = glm::vec3;
 using Direct = OrientedPointLight<V>;
-using Virtual = VirtualLight<V>;
+using Virtual = VirtualPointLight<V>;
 
 const Receiver<Lambert<V>> floor_point(V(0.0f), Lambert<V>{{0.0f, 0.0f, 1.0f}, V(0.5f)});
 

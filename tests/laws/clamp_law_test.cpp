@@ -13,7 +13,7 @@
 
 #include <lightcuts/cut/lightcut.hpp>
 #include <lightcuts/estimate/exhaustive.hpp>
-#include <lightcuts/light/clamped.hpp>
+#include <lightcuts/light/clampable.hpp>
 #include "support/cut_results.hpp"
 #include "support/scene.hpp"
 #include "support/threads.hpp"
@@ -23,7 +23,7 @@ namespace {
 
 using V = glm::vec3;
 using Direct = OrientedPointLight<V>;
-using Virtual = VirtualLight<V>;
+using Virtual = VirtualPointLight<V>;
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr ClampOptions every_clamping[] = {{},

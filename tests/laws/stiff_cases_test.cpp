@@ -423,7 +423,7 @@ TEST(StiffCase, ExponentZeroInThePlaneOfTheViewer) {
         const DistantLight<> light{V(glm::dvec3(-std::cos(phi), -std::sin(phi), 0.0)), V(1.0f)};
         const ModifiedPhong<V> material{normal, view, V(1.0f), 0.0f};
         const LightCluster<DistantLight<>> cluster = cluster_of(light);
-        const float value = material.evaluate(place_of(light)).x;
+        const float value = material.evaluate(position_or_direction(light)).x;
         ASSERT_LE(value, TwoStageBounds{}.quick(material, cluster, V(0.0f)).x) << trial;
         ASSERT_LE(value, TwoStageBounds{}.tight(material, cluster, V(0.0f)).x) << trial;
     }

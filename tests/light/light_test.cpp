@@ -53,15 +53,15 @@ static_assert(sizeof(OmniLight<glm::vec3, PolynomialFalloff>) == 36);
 
 TEST(LightProperty, ComesFromTheTraitThenTheFunctionThenTheMember) {
     const Verbose light;
-    EXPECT_EQ(place_of(light), glm::vec3(3.0f));
+    EXPECT_EQ(position_or_direction(light), glm::vec3(3.0f));
     EXPECT_EQ(detail::intensity_of(light), 2.0f);
     EXPECT_EQ(detail::axis_of(light), glm::vec3(1.0f, 0.0f, 0.0f));
-    EXPECT_EQ(place_of(Foreign{1.0f, glm::vec3(7.0f), 2.0}), glm::vec3(7.0f));
+    EXPECT_EQ(position_or_direction(Foreign{1.0f, glm::vec3(7.0f), 2.0}), glm::vec3(7.0f));
 }
 
 TEST(PlaceOf, ADirectionalLightIsTheUnitDirectionTowardsIt) {
-    EXPECT_EQ(place_of(DistantLight<>{{0.0f, -1.0f, 0.0f}, {}}), glm::vec3(0.0f, 1.0f, 0.0f));
-    const glm::vec3 place = place_of(DistantLight<>{{0.6f, 0.0f, 0.8f}, {}});
+    EXPECT_EQ(position_or_direction(DistantLight<>{{0.0f, -1.0f, 0.0f}, {}}), glm::vec3(0.0f, 1.0f, 0.0f));
+    const glm::vec3 place = position_or_direction(DistantLight<>{{0.6f, 0.0f, 0.8f}, {}});
     EXPECT_NEAR(glm::length(place), 1.0f, 1e-7f);
 }
 

@@ -79,7 +79,8 @@ struct ScalarOccluders {
 
     template <class R, Light L>
     float operator()(const R& receiver, const L& light) const {
-        return occluders.block(receiver.shadow_origin, place_of(light), DirectionalLight<L>) ? through : 1.0f;
+        return occluders.block(receiver.shadow_origin, position_or_direction(light), DirectionalLight<L>) ? through
+                                                                                                          : 1.0f;
     }
 };
 

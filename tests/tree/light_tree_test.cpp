@@ -82,7 +82,7 @@ void expect_summaries(const LightTree<L>& tree) {
         for (ClusterTree::node_index k = topology.left_leaf(n); k <= n; ++k) {
             if (!topology.is_leaf(k)) continue;
             const L& light = tree.lights()[topology.item(k)];
-            box = merge(box, box_of(place_of(light)));
+            box = merge(box, box_of(position_or_direction(light)));
             sum += glm::dvec3(light.intensity);
             if constexpr (OrientedLight<L>) {
                 if (is_single(cluster.cone)) {

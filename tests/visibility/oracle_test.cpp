@@ -76,7 +76,7 @@ TEST(VisibilityQuery, SaysWhoAsksAboutWhat) {
                 ++kinds[q.kind];
                 EXPECT_EQ(q.distant, q.kind == 1);
                 EXPECT_EQ(q.from, receivers[q.receiver].shadow_origin);
-                EXPECT_EQ(q.to, q.distant ? place_of(distant[q.light]) : omni[q.light].position);
+                EXPECT_EQ(q.to, q.distant ? position_or_direction(distant[q.light]) : omni[q.light].position);
                 answers[i] = 1.0f;
             }
         }

@@ -31,7 +31,8 @@ struct ScalarGlass {
 
     template <class Receiver, Light L>
     V operator()(const Receiver& receiver, const L& light) const {
-        return occluders.block(receiver.shadow_origin, place_of(light), DirectionalLight<L>) ? glass : V(1.0f);
+        return occluders.block(receiver.shadow_origin, position_or_direction(light), DirectionalLight<L>) ? glass
+                                                                                                          : V(1.0f);
     }
 };
 

@@ -30,7 +30,7 @@ public:
     template <class R, Light L>
     bool operator()(const R& receiver, const L& light) const {
         RTCRay ray;
-        aim(ray, receiver.shadow_origin, place_of(light), DirectionalLight<L>);
+        aim(ray, receiver.shadow_origin, position_or_direction(light), DirectionalLight<L>);
         return !occluded(ray);
     }
 
@@ -38,7 +38,7 @@ public:
         constexpr std::size_t stream = 256;
         RTCRay rays[stream];
         for (std::size_t begin = 0; begin < queries.size(); begin += stream) {
-            const std::size_t count = std::min(stream, queries.size() - begin);
+            const std::size_t count = (std::min)(stream, queries.size() - begin);
             for (std::size_t i = 0; i < count; ++i) {
                 const VisibilityQuery& q = queries[begin + i];
                 aim(rays[i], q.from, q.to, q.distant);

@@ -70,7 +70,7 @@ constexpr S scale_bound(const S& s, float bound) {
     // Covers rounding to float here and in products with it, and axes of nearly unit length.
     constexpr float slack = 1.0f + 1.2e-5f;
     const float factor = bound * slack;
-    if (factor <= std::numeric_limits<float>::max()) [[likely]]
+    if (factor <= (std::numeric_limits<float>::max)()) [[likely]]
         return s * factor;
     return scale_infinite_bound(s, factor);
 }
@@ -132,7 +132,7 @@ material_spectrum<M> material_bound(const M& material, const LightCluster<L>& cl
     require_bound<M>();
     using S = material_spectrum<M>;
     if constexpr (CompositeMaterial<M>) {
-        S sum{};
+        S sum = black<S>();
         material.for_each_component([&](const auto& part) { sum = sum + material_bound(part, cluster, view); });
         return sum;
     } else if constexpr (CosineLobeMaterial<M>) {
@@ -140,7 +140,7 @@ material_spectrum<M> material_bound(const M& material, const LightCluster<L>& cl
         return scale_bound(S(lobe.scale), cosine_lobe_bound(glm::dvec3(lobe.normal), cluster, view));
     } else if constexpr (BoundedMaterial<M>) {
         const double geometric = geometric_bound(cluster, view);
-        if (!(geometric > 0.0)) return S{};
+        if (!(geometric > 0.0)) return black<S>();
         return scale_bound(S(material.upper_bound(view.box)), geometric);
     }
 }
@@ -184,7 +184,7 @@ template <class M, Light L>
 void block_bound(const M& material, const LightCluster<L>* const* clusters, int count, const glm::vec3& point,
                  material_spectrum<M>* units) {
     ClusterBlock block(clusters, count, point);
-    for (int i = 0; i < count; ++i) units[i] = {};
+    for (int i = 0; i < count; ++i) units[i] = black<material_spectrum<M>>();
     add_block_bound(material, clusters, count, point, block, units);
 }
 
@@ -194,7 +194,7 @@ template <class M, Light L>
 material_spectrum<M> joint_material_bound(const M& material, const LightCluster<L>& cluster, const ClusterView& view) {
     using S = material_spectrum<M>;
     if constexpr (CompositeMaterial<M>) {
-        S sum{};
+        S sum = black<S>();
         material.for_each_component([&](const auto& part) { sum = sum + joint_material_bound(part, cluster, view); });
         return sum;
     } else if constexpr (CosineLobeMaterial<M> && cosine_emission<L> && inverse_square<L>) {

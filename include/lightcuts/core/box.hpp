@@ -14,14 +14,14 @@ struct Box {
     glm::vec3 lo{std::numeric_limits<float>::infinity()};
     glm::vec3 hi{-std::numeric_limits<float>::infinity()};
 
-    friend constexpr bool operator==(const Box&, const Box&) = default;
+    friend bool operator==(const Box&, const Box&) = default;
 };
 
 /// The box of one point.
-constexpr Box box_of(const glm::vec3& point) { return {point, point}; }
+inline Box box_of(const glm::vec3& point) { return {point, point}; }
 
 /// The smallest box that holds both.
-constexpr Box merge(const Box& a, const Box& b) {
+inline Box merge(const Box& a, const Box& b) {
     const auto lower = [](float s, float t) { return t < s ? t : s; };
     const auto upper = [](float s, float t) { return s < t ? t : s; };
     return {{lower(a.lo.x, b.lo.x), lower(a.lo.y, b.lo.y), lower(a.lo.z, b.lo.z)},
@@ -29,29 +29,27 @@ constexpr Box merge(const Box& a, const Box& b) {
 }
 
 /// True iff the box holds no point.
-constexpr bool is_empty(const Box& b) { return !(b.lo.x <= b.hi.x && b.lo.y <= b.hi.y && b.lo.z <= b.hi.z); }
+inline bool is_empty(const Box& b) { return !(b.lo.x <= b.hi.x && b.lo.y <= b.hi.y && b.lo.z <= b.hi.z); }
 
 /// True iff `point` lies in `b` or on its surface.
-constexpr bool contains(const Box& b, const glm::vec3& point) {
+inline bool contains(const Box& b, const glm::vec3& point) {
     return b.lo.x <= point.x && point.x <= b.hi.x && b.lo.y <= point.y && point.y <= b.hi.y && b.lo.z <= point.z &&
            point.z <= b.hi.z;
 }
 
 /// True iff every point of `inner` lies in `outer`; an empty `inner` always does.
-constexpr bool contains(const Box& outer, const Box& inner) {
+inline bool contains(const Box& outer, const Box& inner) {
     return is_empty(inner) || (contains(outer, inner.lo) && contains(outer, inner.hi));
 }
 
 /// The middle of `b`; pre: not empty.
-constexpr glm::dvec3 centre(const Box& b) { return 0.5 * (glm::dvec3(b.lo) + glm::dvec3(b.hi)); }
+inline glm::dvec3 centre(const Box& b) { return 0.5 * (glm::dvec3(b.lo) + glm::dvec3(b.hi)); }
 
 /// The edges of `b`; zero if empty.
-constexpr glm::dvec3 extent(const Box& b) {
-    return is_empty(b) ? glm::dvec3(0.0) : glm::dvec3(b.hi) - glm::dvec3(b.lo);
-}
+inline glm::dvec3 extent(const Box& b) { return is_empty(b) ? glm::dvec3(0.0) : glm::dvec3(b.hi) - glm::dvec3(b.lo); }
 
 /// Squared length of the diagonal; zero if empty.
-constexpr double diagonal2(const Box& b) {
+inline double diagonal2(const Box& b) {
     const glm::dvec3 e = extent(b);
     return e.x * e.x + e.y * e.y + e.z * e.z;
 }
@@ -62,7 +60,7 @@ struct OffsetBox {
     glm::dvec3 lo{0.0};
     glm::dvec3 hi{0.0};
 
-    friend constexpr bool operator==(const OffsetBox&, const OffsetBox&) = default;
+    friend bool operator==(const OffsetBox&, const OffsetBox&) = default;
 };
 
 namespace detail {
@@ -81,14 +79,14 @@ constexpr double clamp(double x, double lo, double hi) {
     return raised > hi ? hi : raised;
 }
 
-constexpr double dot(const glm::dvec3& a, const glm::dvec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline double dot(const glm::dvec3& a, const glm::dvec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
 }  // namespace detail
 
 /// The offsets of the points of `lights` from `receiver`. Exact unless the difference of two floats has more than
 /// 53 bits; then rounded outward.
 /// pre: `lights` is not empty
-constexpr OffsetBox offsets(const Box& lights, const glm::vec3& receiver) {
+inline OffsetBox offsets(const Box& lights, const glm::vec3& receiver) {
     using detail::outward_difference;
     const glm::dvec3 lo(lights.lo);
     const glm::dvec3 hi(lights.hi);
@@ -101,40 +99,40 @@ constexpr OffsetBox offsets(const Box& lights, const glm::vec3& receiver) {
 
 /// The offsets from every point of `receivers` to every point of `lights` (a gather cluster's view).
 /// pre: neither box is empty
-constexpr OffsetBox offsets(const Box& lights, const Box& receivers) {
+inline OffsetBox offsets(const Box& lights, const Box& receivers) {
     return {offsets(lights, receivers.hi).lo, offsets(lights, receivers.lo).hi};
 }
 
 /// The box of -p.
-constexpr OffsetBox negated(const OffsetBox& b) { return {-b.hi, -b.lo}; }
+inline OffsetBox negated(const OffsetBox& b) { return {-b.hi, -b.lo}; }
 
 /// The box of the directions *towards* distant lights, given the box of the unit directions their light travels.
 /// Its points of interest have length 1: see `max_cosine_of_directions`.
-constexpr OffsetBox towards_lights(const Box& directions) {
+inline OffsetBox towards_lights(const Box& directions) {
     return {-glm::dvec3(directions.hi), -glm::dvec3(directions.lo)};
 }
 
 /// The middle of `b`.
-constexpr glm::dvec3 centre(const OffsetBox& b) { return 0.5 * (b.lo + b.hi); }
+inline glm::dvec3 centre(const OffsetBox& b) { return 0.5 * (b.lo + b.hi); }
 
 /// The point of `b` nearest to `v`.
-constexpr glm::dvec3 clamp(const glm::dvec3& v, const OffsetBox& b) {
+inline glm::dvec3 clamp(const glm::dvec3& v, const OffsetBox& b) {
     return {detail::clamp(v.x, b.lo.x, b.hi.x), detail::clamp(v.y, b.lo.y, b.hi.y), detail::clamp(v.z, b.lo.z, b.hi.z)};
 }
 
 /// True iff `p` lies in `b` or on its surface.
-constexpr bool contains(const OffsetBox& b, const glm::dvec3& p) {
+inline bool contains(const OffsetBox& b, const glm::dvec3& p) {
     return b.lo.x <= p.x && p.x <= b.hi.x && b.lo.y <= p.y && p.y <= b.hi.y && b.lo.z <= p.z && p.z <= b.hi.z;
 }
 
 /// Lower bound of |p|^2 over the box, within a few ulps; exactly zero iff the receiver lies in it.
-constexpr double min_distance2(const OffsetBox& b) {
+inline double min_distance2(const OffsetBox& b) {
     const glm::dvec3 nearest = clamp(glm::dvec3(0.0), b);
     return detail::dot(nearest, nearest) * (1.0 - 4.0 * unit_roundoff);
 }
 
 /// Upper bound of |p|^2 over the box, within a few ulps.
-constexpr double max_distance2(const OffsetBox& b) {
+inline double max_distance2(const OffsetBox& b) {
     const auto farthest = [](double lo, double hi) { return -lo > hi ? -lo : hi; };
     const glm::dvec3 corner(farthest(b.lo.x, b.hi.x), farthest(b.lo.y, b.hi.y), farthest(b.lo.z, b.hi.z));
     return detail::dot(corner, corner) * (1.0 + 4.0 * unit_roundoff);

@@ -16,31 +16,31 @@ struct Cone {
     glm::vec3 axis{0.0f, 0.0f, 1.0f};  ///< unit
     float sin2_half = -1.0f;           ///< sin^2(beta/2): 0 one direction, 1/2 hemisphere, 1 sphere; negative: empty
 
-    friend constexpr bool operator==(const Cone&, const Cone&) = default;
+    friend bool operator==(const Cone&, const Cone&) = default;
 };
 
 /// The cone of one direction; pre: `axis` is a unit vector.
-constexpr Cone cone_of(const glm::vec3& axis) { return {axis, 0.0f}; }
+inline Cone cone_of(const glm::vec3& axis) { return {axis, 0.0f}; }
 
 /// The cone of every direction.
-constexpr Cone whole_sphere() { return {{0.0f, 0.0f, 1.0f}, 1.0f}; }
+inline Cone whole_sphere() { return {{0.0f, 0.0f, 1.0f}, 1.0f}; }
 
-constexpr bool is_empty(const Cone& c) { return c.sin2_half < 0.0f; }
-constexpr bool is_single(const Cone& c) { return c.sin2_half == 0.0f; }
-constexpr bool is_whole_sphere(const Cone& c) { return c.sin2_half >= 1.0f; }
+inline bool is_empty(const Cone& c) { return c.sin2_half < 0.0f; }
+inline bool is_single(const Cone& c) { return c.sin2_half == 0.0f; }
+inline bool is_whole_sphere(const Cone& c) { return c.sin2_half >= 1.0f; }
 
 /// The axis in double, with length 1 to double precision: as stored it is off by up to 1e-7, too much for
 /// `widen_cosine` where the cosine is near -1. pre: not empty
 inline glm::dvec3 unit_axis(const Cone& c) { return glm::normalize(glm::dvec3(c.axis)); }
 
 /// The opposite directions.
-constexpr Cone negated(const Cone& c) { return {-c.axis, c.sin2_half}; }
+inline Cone negated(const Cone& c) { return {-c.axis, c.sin2_half}; }
 
 /// 1 - cos(beta), without cancellation; pre: not empty.
-constexpr double one_minus_cos(const Cone& c) { return 2.0 * static_cast<double>(c.sin2_half); }
+inline double one_minus_cos(const Cone& c) { return 2.0 * static_cast<double>(c.sin2_half); }
 
 /// cos(beta); pre: not empty.
-constexpr double cos_half_angle(const Cone& c) { return 1.0 - 2.0 * static_cast<double>(c.sin2_half); }
+inline double cos_half_angle(const Cone& c) { return 1.0 - 2.0 * static_cast<double>(c.sin2_half); }
 
 /// sin(beta); pre: not empty.
 inline double sin_half_angle(const Cone& c) {

@@ -31,7 +31,7 @@ struct Support {
     double noise;
 };
 
-constexpr Support support_of(const glm::dvec3& v, const OffsetBox& b) {
+inline Support support_of(const glm::dvec3& v, const OffsetBox& b) {
     const auto magnitude = [](double x) { return x < 0.0 ? -x : x; };
     const glm::dvec3 terms(larger(v.x * b.lo.x, v.x * b.hi.x), larger(v.y * b.lo.y, v.y * b.hi.y),
                            larger(v.z * b.lo.z, v.z * b.hi.z));
@@ -40,7 +40,7 @@ constexpr Support support_of(const glm::dvec3& v, const OffsetBox& b) {
 }
 
 /// True iff certainly no point has v.p > 0. Sums of exact zeros count: lights in the plane of their receiver.
-constexpr bool is_behind(const Support& s) { return s.value <= -s.noise; }
+inline bool is_behind(const Support& s) { return s.value <= -s.noise; }
 
 /// The positive s where c - b s - a s^2 = 0, for a, c >= 0; without cancellation. NaN or infinite if there is none.
 inline double quadratic_root(double c, double b, double a) {
@@ -115,7 +115,7 @@ inline glm::dvec3 vertex_along(const glm::dvec3& v, const OffsetBox& b) {
 inline double start_of(const glm::dvec3& v, const OffsetBox& b, const glm::dvec3& nearest, double d2, double support) {
     const glm::dvec3 middle = centre(b);
     const glm::dvec3 farthest = vertex_along(v, b);
-    const auto value = [](double p2, double along) { return p2 / larger(along, std::numeric_limits<double>::min()); };
+    const auto value = [](double p2, double along) { return p2 / larger(along, (std::numeric_limits<double>::min)()); };
     const double from_farthest = dot(farthest, farthest) / support;
     const double from_middle = value(dot(middle, middle), dot(v, middle));
     const double from_nearest = value(d2, dot(v, nearest));
@@ -195,9 +195,7 @@ inline PowerBound max_power(const Exponent exponent, const glm::dvec3& v, const 
 }  // namespace detail
 
 /// True iff certainly no point p of `b` has v.p > 0: then every bound on the cosine with `v` is exactly zero.
-constexpr bool is_behind(const glm::dvec3& v, const OffsetBox& b) {
-    return detail::is_behind(detail::support_of(v, b));
-}
+inline bool is_behind(const glm::dvec3& v, const OffsetBox& b) { return detail::is_behind(detail::support_of(v, b)); }
 
 /// Upper bound of (v.p)+ / |p|^K over the points p of `b`, for K = 1, 2, 3: cosine (v unit), the joint bound's kernel,
 /// cosine over squared distance. v need not be a unit vector.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 #include <glm/vec3.hpp>
@@ -163,12 +164,12 @@ inline double joint_bound(const glm::dvec3& n, const Cone& reversed_axes, const 
 /// weighted product is 1; the best ones, mu_j proportional to 1 / (a_j.q), make it exact.
 /// pre: every w_j > 0; 1 <= W <= K
 /// cost: about 350 ns
-template <int N>
+template <std::size_t N>
 inline double joint_power_bound(const glm::dvec3 (&directions)[N], const double (&weights)[N], double K,
                                 const OffsetBox& b, int iterations = 4, double tolerance = 1e-2) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     double W = 0.0;
-    for (int j = 0; j < N; ++j) {
+    for (std::size_t j = 0; j < N; ++j) {
         if (is_behind(directions[j], b)) return 0.0;
         W += weights[j];
     }
@@ -182,7 +183,7 @@ inline double joint_power_bound(const glm::dvec3 (&directions)[N], const double 
         const double length = std::sqrt(detail::dot(q, q));
         double log_at_q = -(K - W) * std::log(length);
         double mean = 0.0;
-        for (int j = 0; j < N; ++j) {
+        for (std::size_t j = 0; j < N; ++j) {
             const double cosine = detail::dot(directions[j], q) / length;
             const double log_cosine = cosine > 0x1p-20 ? std::log(cosine) : -infinity;
             log_at_q += weights[j] * log_cosine;
@@ -191,7 +192,7 @@ inline double joint_power_bound(const glm::dvec3 (&directions)[N], const double 
         }
         if (log_best <= log_at_q + 2.0 * tolerance) break;  // attained
         glm::dvec3 v(0.0);
-        for (int j = 0; j < N; ++j) {
+        for (std::size_t j = 0; j < N; ++j) {
             log_mu[j] -= mean;
             v += directions[j] * (weights[j] / W * std::exp(log_mu[j]));
         }

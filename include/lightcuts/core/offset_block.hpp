@@ -166,7 +166,8 @@ void lane_power(const LaneVectors& v, const LaneSupport& s, const OffsetBlock& b
         for (int i = 0; i < lane_count; ++i) best[i] = select(b.nearness[i] < 0.0f, best[i], certified[i]);
     }
     for (int i = 0; i < lane_count; ++i) {
-        constexpr float largest = std::numeric_limits<float>::max(), infinity = std::numeric_limits<float>::infinity();
+        constexpr float largest = (std::numeric_limits<float>::max)(),
+                        infinity = std::numeric_limits<float>::infinity();
         const float inverse = b.inverse[i];
         const float slack = 1e-6f * (magnitude(v.x[0][i]) + magnitude(v.x[1][i]) + magnitude(v.x[2][i])) *
                             (K == 1   ? 1.0f

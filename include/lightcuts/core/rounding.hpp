@@ -43,7 +43,7 @@ constexpr double next_down(double x) { return -next_up(-x); }
 constexpr float round_up(double x) {
     const float nearest = static_cast<float>(x);
     const float above = static_cast<double>(nearest) < x ? next_up(nearest) : nearest;
-    constexpr float smallest = std::numeric_limits<float>::min();
+    constexpr float smallest = (std::numeric_limits<float>::min)();
     return x > 0.0 && above < smallest ? smallest : above;
 }
 

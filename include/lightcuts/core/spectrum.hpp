@@ -40,10 +40,13 @@ struct spectrum_traits<S> {
     static constexpr void set(S& s, int i, float value) { s[i] = value; }
 };
 
-/// A quantity of light per channel: `float`, `glm::vec3`, or a user's N bands.
-/// `S{}` is darkness; `+` and `*` work channel by channel; `*` by a float scales.
+/// A quantity of light per channel: `float`, `glm::vec3`, or a user's N bands. `+` and `*` work channel by channel; `*`
+/// by a float scales. `S s;` may leave the channels as they are: darkness is `black<S>()`, which sets them. Copies are
+/// made and assigned; what `operator=` returns does not matter.
 template <class S>
-concept Spectrum = std::copyable<S> && std::default_initializable<S> && requires(S a, const S b, float k, int i) {
+concept Spectrum = std::copy_constructible<S> && std::default_initializable<S> &&
+    requires(S a, const S b, float k, int i) {
+    a = b;
     { b + b } -> std::convertible_to<S>;
     { b* b } -> std::convertible_to<S>;
     { b* k } -> std::convertible_to<S>;
@@ -67,6 +70,12 @@ constexpr S make_spectrum(F&& f) {
     S s{};
     for (int i = 0; i < channels_of<S>; ++i) spectrum_traits<S>::set(s, i, static_cast<float>(f(i)));
     return s;
+}
+
+/// Darkness: every channel is zero, whatever the default constructor of `S` leaves there.
+template <Spectrum S>
+constexpr S black() {
+    return make_spectrum<S>([](int) { return 0.0f; });
 }
 
 /// Sum of the channels: the scalar by which lights and clusters are weighted.
@@ -121,7 +130,7 @@ constexpr float rough_sum(const S& s) {
 /// True if a channel may be the largest float, in place of a larger number.
 template <Spectrum S>
 constexpr bool is_saturated(const S& s) {
-    return !(rough_sum(s) < std::numeric_limits<float>::max());
+    return !(rough_sum(s) < (std::numeric_limits<float>::max)());
 }
 
 }  // namespace detail
@@ -129,7 +138,7 @@ constexpr bool is_saturated(const S& s) {
 /// `s` with no channel above the largest float, so that a product with zero stays zero.
 template <Spectrum S>
 constexpr S finite(const S& s) {
-    constexpr float largest = std::numeric_limits<float>::max();
+    constexpr float largest = (std::numeric_limits<float>::max)();
     if (detail::rough_sum(s) <= largest) return s;
     return make_spectrum<S>([&](int i) {
         const float c = channel(s, i);
@@ -143,7 +152,7 @@ namespace detail {
 template <Spectrum S>
 [[gnu::noinline]] constexpr S saturated_product(const S& a, const S& b) {
     return make_spectrum<S>([&](int i) {
-        constexpr float largest = std::numeric_limits<float>::max();
+        constexpr float largest = (std::numeric_limits<float>::max)();
         const float x = channel(a, i), y = channel(b, i);
         if (!(x > 0.0f && y > 0.0f)) return 0.0f;
         return x * y < largest ? x * y : largest;
@@ -156,7 +165,7 @@ template <Spectrum S>
 template <Spectrum S>
 constexpr S finite_product(const S& a, const S& b) {
     const S product = a * b;
-    if (detail::rough_sum(product) <= std::numeric_limits<float>::max()) [[likely]]
+    if (detail::rough_sum(product) <= (std::numeric_limits<float>::max)()) [[likely]]
         return product;
     return detail::saturated_product(a, b);
 }

@@ -31,7 +31,7 @@ public:
     std::size_t operator()(double u) const {
         const double wanted = u * total();
         const auto cell = static_cast<std::size_t>(u * static_cast<double>(starts_.size()));
-        std::size_t at = starts_[std::min(cell, starts_.size() - 1)];
+        std::size_t at = starts_[(std::min)(cell, starts_.size() - 1)];
         while (at > 0 && cumulative_[at - 1] > wanted) --at;  // rounding
         return first_beyond(wanted, at);
     }

@@ -9,11 +9,11 @@
 #include "../core/box.hpp"
 #include "../core/rounding.hpp"
 #include "../core/spectrum.hpp"
-#include "../light/clamped.hpp"
+#include "../light/clampable.hpp"
 
 namespace lightcuts {
 
-/// The most that one light of a ClampedLight kind may add at a receiver. The limits hold together, in every channel;
+/// The most that one light of a ClampableLight kind may add at a receiver. The limits hold together, in every channel;
 /// an infinite one is off. A cluster of n lights may add n times as much, so that error bounds stay bounds.
 struct ClampOptions {
     /// Radiance. pre: >= 0.
@@ -91,7 +91,7 @@ ChannelSums<typename Forest::spectrum> counts_per_radiance(const Forest& forest)
     Box box;
     forest.for_each([&](std::uint32_t, const auto& tree) {
         using L = typename std::remove_cvref_t<decltype(tree)>::light_type;
-        if constexpr (ClampedLight<L>) {
+        if constexpr (ClampableLight<L>) {
             if (tree.empty()) return;
             const auto& all = tree.clusters()[tree.topology().root()];
             if constexpr (!DirectionalLight<L>) box = merge(box, all.box);

@@ -18,15 +18,15 @@ struct PartTag {};
 /// were without.
 template <Spectrum S, bool Clamps = false>
 struct CutNode {
-    using LightCount = std::conditional_t<Clamps, float, detail::Absent<detail::LightCountTag>>;
-    using PartExponent = std::conditional_t<Clamps, std::uint8_t, detail::Absent<detail::PartTag>>;
+    using LightCount = std::conditional_t<Clamps, float, detail::Empty<detail::LightCountTag>>;
+    using PartExponent = std::conditional_t<Clamps, std::uint8_t, detail::Empty<detail::PartTag>>;
 
     std::uint32_t node = 0;            ///< in its tree
     std::uint32_t representative = 0;  ///< leaf of the tree that stands for the cluster
-    S terms{};                         ///< the representative's material x geometric x visibility terms
-    S estimate{};                      ///< terms x cluster intensity [Lightcuts 2005, Eq. 2]
-    S unit_bound{};                    ///< upper bound of material x geometric terms, the cluster's or its parent's
-    S bound{};                         ///< upper bound of the cluster's error; 0 for a single light
+    S terms = black<S>();              ///< the representative's material x geometric x visibility terms
+    S estimate = black<S>();           ///< terms x cluster intensity [Lightcuts 2005, Eq. 2]
+    S unit_bound = black<S>();         ///< upper bound of material x geometric terms, the cluster's or its parent's
+    S bound = black<S>();              ///< upper bound of the cluster's error; 0 for a single light
     std::uint8_t kind = 0;             ///< tree of the forest
     bool bounded = false;              ///< `unit_bound` is the cluster's own
     bool queried = false;              ///< `terms` waits for the representative, or for its shadow ray

@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "../light/clamped.hpp"
+#include "../light/clampable.hpp"
 #include "../material/material.hpp"
 #include "../tree/light_tree.hpp"
 #include "../visibility/oracle.hpp"
@@ -24,7 +24,7 @@ public:
     static_assert((std::same_as<spectrum, spectrum_of<Ls>> && ...), "all lights of a forest need the same spectrum");
     static constexpr std::uint32_t kinds = sizeof...(Ls);
     /// True if lights of some kind may be clamped.
-    static constexpr bool clamps = (ClampedLight<Ls> || ...);
+    static constexpr bool clamps = (ClampableLight<Ls> || ...);
 
     explicit LightForest(const LightTree<Ls>&... trees) : trees_(&trees...) {}
     /// The forest would refer to trees that are gone.
@@ -48,7 +48,7 @@ public:
     /// Number of trees with at least one lit light: the smallest cut.
     std::size_t root_count() const {
         std::size_t count = 0;
-        for_each([&](std::uint32_t, const auto& tree) { count += tree.empty() ? 0 : 1; });
+        for_each([&](std::uint32_t, const auto& tree) { count += tree.empty() ? 0u : 1u; });
         return count;
     }
 

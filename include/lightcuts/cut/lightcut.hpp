@@ -17,13 +17,13 @@ namespace lightcuts {
 /// What shading a receiver by a cut yields.
 template <Spectrum S>
 struct CutResult {
-    S radiance{};
+    S radiance = black<S>();
     /// Sum of the error bounds of the cut's clusters, absolute radiance; infinite if a cluster that may touch the
     /// receiver is left on the cut. With automatic clamping it includes what errors do to the threshold. Beside it
     /// stands the rounding of float: 1e-5 of the radiance; and what float cannot hold: 2^-126 of all lights' intensity
     /// where terms or visibility are smaller than that, as beyond distances of 1e18, and radiance above the largest
     /// float, of one light or of all, is the largest float.
-    S error_bound{};
+    S error_bound = black<S>();
     /// Radiance that no clamped light exceeded; infinite if there was no limit, as in automatic clamping of two or
     /// fewer.
     S clamp_threshold = make_spectrum<S>([](int) { return std::numeric_limits<float>::infinity(); });
@@ -42,10 +42,10 @@ struct LightcutScratch {
         std::uint32_t queries = 0;
         bool running = false;
     };
-    std::vector<Slot> slots;
+    std::vector<Slot> in_progress;
     ReusableList<VisibilityQuery> queries;
     std::vector<float> answers;
-    std::vector<S> tints;  ///< answers that are spectra
+    std::vector<S> transmittances;  ///< answers that are spectra
 };
 
 /// The scratch for shading by a tree or a forest.
@@ -201,8 +201,8 @@ void shade_one_by_one(const Forest& forest, std::span<const Receiver<M>> receive
                       LightcutScratch<typename Forest::spectrum, Forest::clamps>& scratch,
                       const LightcutOptions& options, const Policy& policy) {
     const RefinementOptions refinement = refinement_options(forest, options);
-    if (scratch.slots.empty()) scratch.slots.resize(1);
-    auto& slot = scratch.slots.front();
+    if (scratch.in_progress.empty()) scratch.in_progress.resize(1);
+    auto& slot = scratch.in_progress.front();
     for (std::size_t i = 0; i < receivers.size(); ++i) {
         LightcutProblem<Forest, Receiver<M>, Oracle, Policy> problem(forest, receivers[i], oracle, policy, options,
                                                                      slot.total, slot.queries, scratch.queries);
@@ -222,10 +222,10 @@ void shade_in_lock_step(const Forest& forest, std::span<const Receiver<M>> recei
         return LightcutProblem<Forest, Receiver<M>, Oracle, Policy>(forest, receivers[i], oracle, policy, options,
                                                                     slot.total, slot.queries, scratch.queries);
     };
-    if (scratch.slots.size() < receivers.size()) scratch.slots.resize(receivers.size());
+    if (scratch.in_progress.size() < receivers.size()) scratch.in_progress.resize(receivers.size());
     scratch.queries.clear();
     for (std::size_t i = 0; i < receivers.size(); ++i) {
-        auto& slot = scratch.slots[i];
+        auto& slot = scratch.in_progress[i];
         auto problem = problem_of(i, slot);
         slot.refinement.start(problem);
         problem.request(slot.refinement.fresh());
@@ -239,7 +239,7 @@ void shade_in_lock_step(const Forest& forest, std::span<const Receiver<M>> recei
         // Step 2: each takes its answers, in the order of its queries, and asks the next.
         any = false;
         for (std::size_t i = 0; i < receivers.size(); ++i) {
-            auto& slot = scratch.slots[i];
+            auto& slot = scratch.in_progress[i];
             if (!slot.running) continue;
             auto problem = problem_of(i, slot);
             answers = problem.receive(slot.refinement.fresh(), answers);

@@ -52,7 +52,7 @@ public:
             if (start == Start::lights) {
                 out.reserve(out.size() + topology.item_count());
                 for (ClusterTree::node_index n = 0; n < topology.size(); ++n) {
-                    if (topology.is_leaf(n)) append(tree, kind, n, S{}, out);
+                    if (topology.is_leaf(n)) append(tree, kind, n, black<S>(), out);
                 }
             } else if (start == Start::frontier) {
                 for (const ClusterTree::node_index n : tree.start()) append(tree, kind, n, largest_terms(tree), out);
@@ -152,7 +152,7 @@ private:
     template <class Tree>
     S largest_terms(const Tree&) const {
         float largest = std::numeric_limits<float>::infinity();
-        if constexpr (ClampedLight<typename Tree::light_type>) largest = options_.clamp.terms;
+        if constexpr (ClampableLight<typename Tree::light_type>) largest = options_.clamp.terms;
         return make_spectrum<S>([&](int) { return largest; });
     }
 
@@ -167,12 +167,12 @@ private:
         n.unit_bound = unit_bound;
         n.bounded = false;
         if constexpr (clamps) {
-            n.lights = ClampedLight<typename Tree::light_type> ? static_cast<float>(tree.topology().leaf_count(index))
-                                                               : std::numeric_limits<float>::infinity();
+            n.lights = ClampableLight<typename Tree::light_type> ? static_cast<float>(tree.topology().leaf_count(index))
+                                                                 : std::numeric_limits<float>::infinity();
         }
         // A single light is exact.
         n.bound = tree.topology().is_leaf(index)
-                      ? S{}
+                      ? black<S>()
                       : detail::multiply_bounds(unit_bound, tree.clusters()[index].intensity);
         return n;
     }
@@ -183,8 +183,8 @@ private:
                 ReusableList<node>& out) const {
         node& n = append_bounded(tree, kind, index, unit_bound, out);
         n.queried = true;
-        n.terms = S{};
-        n.estimate = S{};
+        n.terms = black<S>();
+        n.estimate = black<S>();
         if constexpr (clamps) n.part = 0;
         if (tree.topology().is_leaf(index)) {
             n.representative = index;

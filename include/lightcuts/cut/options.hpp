@@ -25,7 +25,7 @@ struct LightcutOptions {
     std::uint64_t seed = 1;
     /// See RefinementOptions.
     double round_fraction = 0.1;
-    /// Of lights whose kind is a ClampedLight. Off by default.
+    /// Of lights whose kind is a ClampableLight. Off by default.
     ClampOptions clamp{};
 };
 

@@ -71,7 +71,7 @@ enum class StopReason : std::uint8_t {
 
 struct RefinementOptions {
     /// Largest number of nodes in the cut; the starting frontier is kept even if it is larger.
-    std::size_t max_nodes = std::numeric_limits<std::size_t>::max();
+    std::size_t max_nodes = (std::numeric_limits<std::size_t>::max)();
     /// A round splits nodes down to this fraction of the largest finite priority. 1: one at a time, the order of
     /// the papers; 0.1: a tenth of the rounds for under one per cent more nodes.
     double round_fraction = 0.1;
@@ -117,7 +117,7 @@ public:
         const std::size_t room = options.max_nodes > size() ? options.max_nodes - size() : 0;
         const std::size_t most_splits = room / (most_children<P> - 1);
         // At the limit all that is above the threshold is tightened once more, and then no more.
-        const double fraction = most_splits == 0 ? 0.0 : std::min(options.round_fraction, 1.0);
+        const double fraction = most_splits == 0 ? 0.0 : (std::min)(options.round_fraction, 1.0);
         while (!choose(problem, fraction)) {
             if constexpr (requires { problem.revise(visit); }) {
                 if (problem.revise(visit)) continue;
@@ -264,7 +264,7 @@ private:
             if (c.priority < infinity && c.priority > largest) largest = c.priority;
         }
         if (in_heap_ && !heap_.empty() && keys_[heap_.front()] < infinity) {
-            largest = std::max(largest, keys_[heap_.front()]);
+            largest = (std::max)(largest, keys_[heap_.front()]);
         }
         const double cutoff = fraction * largest;
         std::size_t kept = 0;

@@ -7,8 +7,8 @@
 
 #include "../core/reusable_list.hpp"
 #include "../material/terms.hpp"
-#include "../visibility/lit_side.hpp"
 #include "../visibility/oracle.hpp"
+#include "../visibility/shadow_origin.hpp"
 #include "clamp.hpp"
 #include "cut_node.hpp"
 #include "forest.hpp"
@@ -51,7 +51,8 @@ public:
     void trace(Node& n) const {
         forest_.visit(n.kind, [&](const auto& tree) {
             const auto& light = tree.lights()[tree.topology().item(n.representative)];
-            on_lit_side(receiver_, light, [&](const auto& lit) { receive(n, as_factor<S>(oracle_(lit, light))); });
+            with_shadow_origin(receiver_, light,
+                               [&](const auto& lit) { receive(n, as_factor<S>(oracle_(lit, light))); });
         });
     }
 
@@ -92,7 +93,7 @@ private:
         for (int i = 0; i < count; ++i) {
             Node& n = *nodes[static_cast<std::size_t>(i)];
             n.terms = terms[static_cast<std::size_t>(i)];
-            if constexpr (ClampedLight<L>) {
+            if constexpr (ClampableLight<L>) {
                 n.terms = at_most(n.terms, clamp_.terms);
                 if (clamp_.is_automatic()) {
                     n.part = representative_part(tree.clusters()[n.representative].intensity,

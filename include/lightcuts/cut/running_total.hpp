@@ -144,7 +144,7 @@ private:
     Sums largest_{};  ///< largest running sum since it was last computed afresh
     Sums weight_{};   ///< 1 / (total + adaptation): what turns a bound into a priority
     Sums base_{};     ///< weights at the last checkpoint
-    [[no_unique_address]] std::conditional_t<Clamps, CutClamping<S>, Absent<ClampingTag>> clamping_{};
+    [[no_unique_address]] std::conditional_t<Clamps, CutClamping<S>, Empty<ClampingTag>> clamping_{};
 };
 
 }  // namespace lightcuts::detail

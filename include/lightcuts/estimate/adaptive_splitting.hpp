@@ -56,7 +56,7 @@ Estimate<forest_spectrum<Lights>> adaptive_splitting(const Lights& lights, const
     return detail::estimate_draws(forest, receiver, oracle, scratch);
 }
 
-/// The same in one call, by the lights of a tree or a forest.
+/// A single estimate by adaptive splitting, with storage of its own. cost: it allocates.
 template <TreeOrForest Lights, class M, class Oracle, class Policy = TwoStageBounds>
 Estimate<forest_spectrum<Lights>> adaptive_splitting(const Lights& lights, const Receiver<M>& receiver,
                                                      const Oracle& oracle, float threshold, std::uint32_t samples,

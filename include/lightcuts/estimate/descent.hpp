@@ -19,7 +19,7 @@ inline constexpr double least_resolution = 0x1p-24;
 /// Where in [0, 1) `u` lies within the part of length `length` that begins at `begin`.
 inline double remainder_in(double u, double begin, double length) {
     const double r = (u - begin) / length;
-    return r > 0.0 ? std::min(r, 1.0 - unit_roundoff) : 0.0;
+    return r > 0.0 ? (std::min)(r, 1.0 - unit_roundoff) : 0.0;
 }
 
 /// Sends the random numbers of the scratch's visits down the tree: at each node a number chooses the child into whose
@@ -44,7 +44,7 @@ void descend(const Tree& tree, std::uint32_t kind, const Receiver<M>& receiver, 
             const Visit& visit = scratch.visits.back();
             const bool leaf = topology.is_leaf(visit.node);
             if (visit.begin == visit.end) {
-                // Nobody came.
+                // No sample reached this node.
             } else if (leaf) {
                 scratch.draws.push_back({topology.item(visit.node), kind, visit.weight * (visit.end - visit.begin)});
             } else {

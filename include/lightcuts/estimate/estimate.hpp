@@ -12,8 +12,8 @@
 #include "../cut/forest.hpp"
 #include "../cut/refinement.hpp"
 #include "../material/terms.hpp"
-#include "../visibility/lit_side.hpp"
 #include "../visibility/oracle.hpp"
+#include "../visibility/shadow_origin.hpp"
 #include "importance.hpp"
 
 namespace lightcuts {
@@ -21,7 +21,7 @@ namespace lightcuts {
 /// What shading a receiver light by light yields.
 template <Spectrum S>
 struct Estimate {
-    S radiance{};
+    S radiance = black<S>();
     /// Radiance that no clamped light exceeded; infinite if there was no limit, as in automatic clamping of two or
     /// fewer.
     S clamp_threshold = make_spectrum<S>([](int) { return std::numeric_limits<float>::infinity(); });
@@ -68,7 +68,7 @@ struct EstimateScratch {
     std::vector<S> clamped;  ///< contributions to which a threshold applies
     std::vector<VisibilityQuery> queries;
     std::vector<float> answers;
-    std::vector<S> tints;  ///< answers that are spectra
+    std::vector<S> transmittances;  ///< answers that are spectra
 };
 
 namespace detail {
@@ -88,7 +88,7 @@ void for_each_unshadowed(const Receiver<M>& receiver, std::span<const L> lights,
         const auto light_of = [&](int i) -> const L& { return members[static_cast<std::size_t>(i)]; };
         unshadowed_terms<L>(receiver, static_cast<int>(members.size()), light_of, terms);
         for (std::size_t i = 0; i < members.size(); ++i) {
-            if constexpr (ClampedLight<L>) terms[i] = at_most(terms[i], clamp.terms);
+            if constexpr (ClampableLight<L>) terms[i] = at_most(terms[i], clamp.terms);
             const S contribution = finite_product(terms[i], S(intensity_of(members[i])));
             if (!is_black(contribution)) f(static_cast<std::uint32_t>(begin + i), contribution);
         }
@@ -135,7 +135,7 @@ std::uint32_t ask(const Forest& forest, const Receiver<M>& receiver, const Oracl
             forest.visit(c.kind, [&](const auto& tree) {
                 const auto& light = tree.lights()[c.light];
                 using L = typename std::remove_cvref_t<decltype(tree)>::light_type;
-                const glm::vec3 place = place_of(light);
+                const glm::vec3 place = position_or_direction(light);
                 scratch.queries.push_back({receiver.shadow_origin_towards(towards<L>(receiver.position, place)),
                                            receiver.id, place, c.light, c.kind, DirectionalLight<L>});
             });
@@ -147,7 +147,8 @@ std::uint32_t ask(const Forest& forest, const Receiver<M>& receiver, const Oracl
         for (const Contribution& c : contributions) {
             forest.visit(c.kind, [&](const auto& tree) {
                 const auto& light = tree.lights()[c.light];
-                on_lit_side(receiver, light, [&](const auto& lit) { take(c, as_factor<S>(oracle(lit, light))); });
+                with_shadow_origin(receiver, light,
+                                   [&](const auto& lit) { take(c, as_factor<S>(oracle(lit, light))); });
             });
         }
         return static_cast<std::uint32_t>(contributions.size());

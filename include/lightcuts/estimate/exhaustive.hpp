@@ -45,7 +45,7 @@ Estimate<forest_spectrum<Lights>> exhaustive(const Lights& lights, const Receive
             LaneSpectra<S> terms;
             unshadowed_terms<L>(
                 receiver, 1, [&](int) -> const L& { return light; }, terms);
-            if constexpr (ClampedLight<L>) terms[0] = detail::at_most(terms[0], clamp.terms);
+            if constexpr (ClampableLight<L>) terms[0] = detail::at_most(terms[0], clamp.terms);
             return finite_product(S(terms[0] * visibility), S(detail::intensity_of(light)));
         });
     };
@@ -67,7 +67,7 @@ Estimate<forest_spectrum<Lights>> exhaustive(const Lights& lights, const Receive
     scratch.clamped.clear();
     forest.for_each([&](std::uint32_t kind, const auto& tree) {
         using L = typename std::remove_cvref_t<decltype(tree)>::light_type;
-        const bool clamps_kind = ClampedLight<L> && clamp.has_threshold();
+        const bool clamps_kind = ClampableLight<L> && clamp.has_threshold();
         if (clamps_kind != clamps) {
             flush();
             clamps = clamps_kind;
@@ -91,7 +91,7 @@ Estimate<forest_spectrum<Lights>> exhaustive(const Lights& lights, const Receive
     return result;
 }
 
-/// The same in one call, by the lights of a tree or a forest.
+/// The exact sum over all lights, once, with storage of its own. cost: it allocates.
 template <TreeOrForest Lights, class M, class Oracle = AlwaysVisible>
 Estimate<forest_spectrum<Lights>> exhaustive(const Lights& lights, const Receiver<M>& receiver,
                                              const Oracle& oracle = {}, const ClampOptions& clamp = {}) {

@@ -28,7 +28,7 @@ struct Importance {
 
     /// True if no light of the cluster can contribute.
     bool is_zero() const { return !(bound > 0.0); }
-    bool is_finite() const { return expected <= std::numeric_limits<double>::max(); }
+    bool is_finite() const { return expected <= (std::numeric_limits<double>::max)(); }
     /// The finite number to compare by, with others of the same `by_irradiance`.
     double weight(bool by_irradiance) const { return by_irradiance ? (is_zero() ? 0.0 : irradiance) : expected; }
 };
@@ -142,7 +142,7 @@ std::array<double, N> chances_of(const std::array<Importance, N>& importances) {
     }
     std::array<double, N> chances{};
     if (!(expected > 0.0)) return chances;
-    const double share = expected <= std::numeric_limits<double>::max() ? defensive_share : 1.0;
+    const double share = expected <= (std::numeric_limits<double>::max)() ? defensive_share : 1.0;
     for (std::size_t i = 0; i < N; ++i) {
         chances[i] = share * (importances[i].weight(true) / irradiance);
         if (share < 1.0) chances[i] += (1.0 - share) * (importances[i].expected / expected);

@@ -72,7 +72,7 @@ Estimate<forest_spectrum<Lights>> power_sampling(const Lights& lights, const Pow
     return result;
 }
 
-/// The same in one call, by the lights of a tree or a forest.
+/// A single estimate by power sampling, with storage of its own. cost: it allocates.
 template <TreeOrForest Lights, class M, class Oracle>
 Estimate<forest_spectrum<Lights>> power_sampling(const Lights& lights, const PowerDistribution& distribution,
                                                  const Receiver<M>& receiver, const Oracle& oracle,

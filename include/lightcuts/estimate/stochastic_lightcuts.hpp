@@ -22,7 +22,7 @@ Estimate<forest_spectrum<Lights>> stochastic_lightcuts(const Lights& lights, con
     return detail::estimate_draws(forest, receiver, oracle, scratch);
 }
 
-/// The same in one call, by the lights of a tree or a forest.
+/// A single estimate by stochastic lightcuts, with storage of its own. cost: it allocates.
 template <TreeOrForest Lights, class M, class Oracle, class Policy = TwoStageBounds>
 Estimate<forest_spectrum<Lights>> stochastic_lightcuts(const Lights& lights, const Receiver<M>& receiver,
                                                        const Oracle& oracle, std::uint32_t samples, std::uint64_t seed,

@@ -78,7 +78,7 @@ double probability_of(const Lights& lights, const Receiver<M>& receiver, std::ui
 }
 
 /// What `leaves_of` says of a light of zero intensity, which is not in the tree.
-inline constexpr std::uint32_t no_leaf = std::numeric_limits<std::uint32_t>::max();
+inline constexpr std::uint32_t no_leaf = (std::numeric_limits<std::uint32_t>::max)();
 
 /// The leaf of every light of a tree: for those who know a light and ask for its probability. cost: linear.
 template <Light L>
@@ -125,7 +125,7 @@ Estimate<forest_spectrum<Lights>> tree_sampling(const Lights& lights, const Rece
     return detail::estimate_draws(forest, receiver, oracle, scratch);
 }
 
-/// The same in one call, by the lights of a tree or a forest.
+/// A single estimate by tree sampling, with storage of its own. cost: it allocates.
 template <TreeOrForest Lights, class M, class Oracle, class Policy = TwoStageBounds>
 Estimate<forest_spectrum<Lights>> tree_sampling(const Lights& lights, const Receiver<M>& receiver, const Oracle& oracle,
                                                 std::uint32_t samples, std::uint64_t seed, const Policy& policy = {}) {

@@ -43,7 +43,7 @@ Estimate<forest_spectrum<Lights>> ward(const Lights& lights, const Receiver<M>& 
     std::span<const Contribution> left(scratch.contributions);
     while (!left.empty() &&
            scratch.sums[scratch.contributions.size() - left.size()] > static_cast<double>(threshold) * found_sum) {
-        const auto tested = left.first(std::min(block, left.size()));
+        const auto tested = left.first((std::min)(block, left.size()));
         result.queries += detail::ask(forest, receiver, oracle, scratch, tested,
                                       [&](const Contribution& c, const auto& visibility) {
                                           found.add_seen(c.radiance, visibility);
@@ -61,7 +61,7 @@ Estimate<forest_spectrum<Lights>> ward(const Lights& lights, const Receiver<M>& 
     return result;
 }
 
-/// The same in one call, by the lights of a tree or a forest.
+/// A single estimate by Ward's adaptive shadow testing, with storage of its own. cost: it allocates.
 template <TreeOrForest Lights, class M, class Oracle>
 Estimate<forest_spectrum<Lights>> ward(const Lights& lights, const Receiver<M>& receiver, const Oracle& oracle,
                                        float threshold) {

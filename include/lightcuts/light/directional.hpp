@@ -8,7 +8,7 @@ namespace lightcuts {
 template <Spectrum S = glm::vec3>
 struct DistantLight {
     glm::vec3 direction{0.0f, -1.0f, 0.0f};  ///< unit, the way the light travels
-    S intensity{};                           ///< irradiance on a facing plane, W/m^2
+    S intensity = black<S>();                ///< irradiance on a facing plane, W/m^2
 };
 
 }  // namespace lightcuts

@@ -9,7 +9,7 @@ namespace lightcuts {
 
 /// Where a light stands in its tree: its position, or the unit direction towards it.
 template <Light L>
-glm::vec3 place_of(const L& light) {
+glm::vec3 position_or_direction(const L& light) {
     if constexpr (DirectionalLight<L>) {
         return glm::vec3(-glm::normalize(glm::dvec3(to_vec3(detail::direction_of(light)))));
     } else {
@@ -27,10 +27,10 @@ struct Incidence {
 template <Light L>
 Incidence incidence(const L& light, const glm::vec3& point) {
     if constexpr (DirectionalLight<L>) {
-        return {place_of(light), 1.0};
+        return {position_or_direction(light), 1.0};
     } else {
         // In double: squares of float offsets neither overflow nor vanish there.
-        const glm::dvec3 offset = glm::dvec3(place_of(light)) - glm::dvec3(point);
+        const glm::dvec3 offset = glm::dvec3(position_or_direction(light)) - glm::dvec3(point);
         const double distance2 = glm::dot(offset, offset);
         if (!(distance2 > 0.0)) return {glm::vec3(0.0f), 0.0};
         const double inverse_distance = 1.0 / std::sqrt(distance2);
@@ -65,13 +65,13 @@ inline constexpr bool has_profile = PointLight<L> && (ProfiledLight<L> || Fallof
 
 /// Where several lights of one kind stand, side by side, and how they are turned if that matters.
 struct LightBlock {
-    LaneVectors place;  ///< as `place_of`
+    LaneVectors place;  ///< as `position_or_direction`
     LaneVectors axis;
 
     /// pre: 0 <= lane < lane_count
     template <Light L>
     void set(int lane, const L& light) {
-        place.set(lane, place_of(light));
+        place.set(lane, position_or_direction(light));
         if constexpr (OrientedLight<L>) axis.set(lane, to_vec3(detail::axis_of(light)));
     }
 

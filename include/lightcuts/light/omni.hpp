@@ -9,7 +9,7 @@ namespace lightcuts {
 template <Spectrum S = glm::vec3, class Falloff = InverseSquare>
 struct OmniLight {
     glm::vec3 position{0.0f};
-    S intensity{};  ///< W/sr
+    S intensity = black<S>();  ///< W/sr
     [[no_unique_address]] Falloff attenuation{};
 
     constexpr float falloff(float distance) const requires(!std::same_as<Falloff, InverseSquare>) {

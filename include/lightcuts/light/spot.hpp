@@ -33,7 +33,7 @@ template <Spectrum S = glm::vec3>
 struct SpotLight {
     glm::vec3 position{0.0f};
     glm::vec3 axis{0.0f, 0.0f, 1.0f};  ///< unit, along the beam
-    S intensity{};                     ///< W/sr, along the axis
+    S intensity = black<S>();          ///< W/sr, along the axis
     SpotProfile profile{};
 
     constexpr float emission(float cosine) const { return profile(cosine); }

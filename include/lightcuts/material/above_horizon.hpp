@@ -2,8 +2,10 @@
 
 #include <glm/geometric.hpp>
 
+#include "../core/assertion.hpp"
+#include "../core/vector.hpp"
+#include "conservative_rounding.hpp"
 #include "material.hpp"
-#include "outward.hpp"
 
 namespace lightcuts {
 
@@ -18,15 +20,19 @@ struct AboveHorizon {
     using Inner = std::remove_cvref_t<M>;
     using S = material_spectrum<Inner>;
 
-    S evaluate(const glm::vec3& to_light) const { return is_above(to_light) ? material.evaluate(to_light) : S{}; }
-    void evaluate_many(const LaneVectors& to_lights, LaneSpectra<S>& values) const requires LaneMaterial<Inner> {
-        material.evaluate_many(to_lights, values);
+    S evaluate(const glm::vec3& to_light) const {
+        return is_above(to_light) ? material.evaluate(to_light) : black<S>();
+    }
+    void evaluate_many(const LaneVectors& to_lights, int count,
+                       LaneSpectra<S>& values) const requires LaneMaterial<Inner> {
+        LIGHTCUTS_ASSERT(is_unit(geometric_normal));
+        material.evaluate_many(to_lights, count, values);
         for (int i = 0; i < lane_count; ++i) {
-            if (!(glm::dot(geometric_normal, to_lights.at(i)) > 0.0f)) values[static_cast<std::size_t>(i)] = S{};
+            if (!(glm::dot(geometric_normal, to_lights.at(i)) > 0.0f)) values[static_cast<std::size_t>(i)] = black<S>();
         }
     }
     S upper_bound(const OffsetBox& offsets) const requires BoundedMaterial<Inner> {
-        return is_below(offsets) ? S{} : material.upper_bound(offsets);
+        return is_below(offsets) ? black<S>() : material.upper_bound(offsets);
     }
     void quick_upper_bounds(const OffsetBlock& offsets, LaneSpectra<S>& bounds) const requires BoundedMaterial<Inner> {
         cheapest_upper_bounds(material, offsets, bounds);
@@ -44,6 +50,7 @@ struct AboveHorizon {
 
     /// True if a light in the direction `to_light`, of any length, can be reflected.
     bool is_above(const glm::vec3& to_light) const {
+        LIGHTCUTS_ASSERT(is_unit(geometric_normal));
         return detail::dot(glm::dvec3(geometric_normal), glm::dvec3(to_light)) > 0.0;
     }
 

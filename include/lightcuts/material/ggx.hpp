@@ -6,10 +6,10 @@
 #include <glm/vec3.hpp>
 
 #include "../core/cosine.hpp"
+#include "conservative_rounding.hpp"
 #include "direction_caps.hpp"
 #include "half_vector.hpp"
 #include "material.hpp"
-#include "outward.hpp"
 
 namespace lightcuts {
 
@@ -46,9 +46,9 @@ public:
     }
 
     S evaluate(const glm::vec3& to_light) const {
-        if (!(frame_.cos_view() > 0.0)) return S{};
+        if (!(frame_.cos_view() > 0.0)) return black<S>();
         const detail::HalfVector h = frame_.of(to_light);
-        if (!(h.cosine > 0.0)) return S{};
+        if (!(h.cosine > 0.0)) return black<S>();
         const double value = without_fresnel(h.cosine, h.sin2);
         const double grazing = value * schlick(h.facing);
         const float a = static_cast<float>(value - grazing);
@@ -56,10 +56,10 @@ public:
         return make_spectrum<S>([&](int i) { return channel(f0_, i) * a + b; });
     }
 
-    void evaluate_many(const LaneVectors& to_lights, LaneSpectra<S>& values) const {
-        if (!(frame_.cos_view() > 0.0)) return values.fill(S{});
+    void evaluate_many(const LaneVectors& to_lights, int count, LaneSpectra<S>& values) const {
+        if (!(frame_.cos_view() > 0.0)) return values.fill(black<S>());
         if (alpha2_ < 1e-2) {  // too sharp for float
-            for (int i = 0; i < lane_count; ++i) values[static_cast<std::size_t>(i)] = evaluate(to_lights.at(i));
+            for (int i = 0; i < count; ++i) values[static_cast<std::size_t>(i)] = evaluate(to_lights.at(i));
             return;
         }
         const glm::vec3 n(frame_.normal()), v(frame_.view());
@@ -95,12 +95,12 @@ public:
 
     /// cost: about 110 ns, of smooth surfaces, to 130
     S upper_bound(const OffsetBox& offsets) const {
-        if (!(frame_.cos_view() > 0.0) || detail::lies_below(frame_.normal(), offsets)) return S{};
+        if (!(frame_.cos_view() > 0.0) || detail::lies_below(frame_.normal(), offsets)) return black<S>();
         return bound(most_cosine(offsets), frame_.range_over<true>(detail::rounded_directions(offsets)));
     }
     /// cost: about 10 ns each
     void quick_upper_bounds(const OffsetBlock& offsets, LaneSpectra<S>& bounds) const {
-        if (!(frame_.cos_view() > 0.0)) return bounds.fill(S{});
+        if (!(frame_.cos_view() > 0.0)) return bounds.fill(black<S>());
         const glm::vec3 normal(frame_.normal());
         detail::DirectionCaps caps;
         detail::HalfVectorRanges h;
@@ -135,7 +135,7 @@ public:
 private:
     /// Upper bound of n . o.
     double most_cosine(const OffsetBox& offsets) const {
-        return detail::turned(clamped_max_cosine(frame_.normal(), offsets, 0.01));
+        return detail::perturbed_cosine(clamped_max_cosine(frame_.normal(), offsets, 0.01));
     }
 
     double root(double cosine) const { return std::sqrt(alpha2_ + (1.0 - alpha2_) * (cosine * cosine)); }
@@ -156,10 +156,11 @@ private:
     S bound(double cosine, const detail::HalfVectorRange& h) const {
         // Beyond alpha = 1 the distribution is largest away from the normal.
         const double value = without_fresnel(cosine > 0.0 ? cosine : 0.0, alpha2_ > 1.0 ? 1.0 : h.sin2);
-        const float weight = detail::padded(schlick(h.facing - 1e-6));  // evaluate_many() knows it to 3e-7
-        const float factor = detail::padded(value);
+        const float weight = detail::with_rounding_margin(
+            schlick(h.facing - 1e-6));  // evaluate_many() knows it to 3e-7
+        const float factor = detail::with_rounding_margin(value);
         return make_spectrum<S>(
-            [&](int i) { return detail::times(channel(f0_, i) * (1.0f - weight) + weight * f90_, factor); });
+            [&](int i) { return detail::positive_product(channel(f0_, i) * (1.0f - weight) + weight * f90_, factor); });
     }
 
     detail::HalfVectorFrame frame_;

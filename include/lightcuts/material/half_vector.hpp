@@ -6,8 +6,10 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include "../core/assertion.hpp"
 #include "../core/box.hpp"
 #include "../core/cosine.hpp"
+#include "../core/vector.hpp"
 #include "direction_caps.hpp"
 
 namespace lightcuts::detail {
@@ -31,7 +33,7 @@ struct HalfVectorRange {
     double facing;
 };
 
-/// The same over several sets of directions.
+/// Lower bounds of a HalfVector's sin2 and facing, over the directions of each of several caps.
 struct HalfVectorRanges {
     alignas(32) Lanes sin2;
     alignas(32) Lanes facing;
@@ -47,6 +49,7 @@ public:
     /// pre: unit vectors
     HalfVectorFrame(const glm::vec3& normal, const glm::vec3& view)
         : normal_(glm::normalize(glm::dvec3(normal))), view_(glm::normalize(glm::dvec3(view))) {
+        LIGHTCUTS_ASSERT(is_unit(normal) && is_unit(view));
         cos_n_ = glm::dot(normal_, view_);
         const glm::dvec3 aside = glm::cross(view_, normal_);
         sin_n_ = glm::length(aside);

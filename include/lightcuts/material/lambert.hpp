@@ -3,9 +3,11 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include "../core/assertion.hpp"
 #include "../core/cosine.hpp"
+#include "../core/vector.hpp"
+#include "conservative_rounding.hpp"
 #include "material.hpp"
-#include "outward.hpp"
 
 namespace lightcuts {
 
@@ -18,21 +20,24 @@ struct Lambert {
 
     S evaluate(const glm::vec3& to_light) const {
         const float cosine = glm::dot(normal, to_light);
-        return cosine > 0.0f ? cosine_lobe().scale * cosine : S{};
+        return cosine > 0.0f ? cosine_lobe().scale * cosine : black<S>();
     }
-    void evaluate_many(const LaneVectors& to_lights, LaneSpectra<S>& values) const {
+    void evaluate_many(const LaneVectors& to_lights, int, LaneSpectra<S>& values) const {
         const S scale = cosine_lobe().scale;
         for (int i = 0; i < lane_count; ++i) {
             const float cosine = glm::dot(normal, to_lights.at(i));
             values[static_cast<std::size_t>(i)] = scale * detail::larger(cosine, 0.0f);
         }
     }
-    CosineLobe<S> cosine_lobe() const { return {normal, albedo * 0.31830988618f}; }
+    CosineLobe<S> cosine_lobe() const {
+        LIGHTCUTS_ASSERT(is_unit(normal));
+        return {normal, albedo * 0.31830988618f};
+    }
 
     /// cost: about 40 ns
     S upper_bound(const OffsetBox& offsets) const {
         const glm::dvec3 n(normal);
-        if (detail::lies_below(n, offsets, error)) return S{};
+        if (detail::lies_below(n, offsets, error)) return black<S>();
         return detail::scaled_up(cosine_lobe().scale, clamped_max_cosine(n, offsets) + error);
     }
     /// cost: about 5 ns each
@@ -42,7 +47,7 @@ struct Lambert {
         for (int i = 0; i < lane_count; ++i) {
             bounds[static_cast<std::size_t>(i)] = cosines[i] > 0.0f ? detail::scaled_up(cosine_lobe().scale,
                                                                                         static_cast<double>(cosines[i]))
-                                                                    : S{};
+                                                                    : black<S>();
         }
     }
 

@@ -40,12 +40,13 @@ concept BoundedMaterial = Material<M> && requires(const M& m, const OffsetBox& b
 template <Spectrum S>
 using LaneSpectra = std::array<S, lane_count>;
 
-/// A material that evaluates several directions at once: `evaluate_many(to_lights, values)` sets values[i] to what
-/// `evaluate` returns for lane i, within float rounding.
+/// A material that evaluates several directions at once: `evaluate_many(to_lights, count, values)` sets values[i] to
+/// what `evaluate` returns for lane i, within float rounding, for each i < count; what it leaves in other lanes does
+/// not matter. Lanes to spare of `to_lights` are unit vectors too. 0 < count <= lane_count.
 template <class M>
 concept LaneMaterial = Material<M> &&
     requires(const M& m, const LaneVectors& to_lights, LaneSpectra<material_spectrum<M>>& values) {
-    m.evaluate_many(to_lights, values);
+    m.evaluate_many(to_lights, 1, values);
 };
 
 /// A bounded material with a second, cheaper bound: as valid, less tight, without iteration, and for several boxes at
@@ -78,8 +79,9 @@ struct AnyComponent {
 };
 }  // namespace detail
 
-/// A material that is the sum of others. `for_each_component(f)` calls f(material) for each, so that each can be
-/// bounded jointly with the geometry.
+/// A material that is bounded part by part: `for_each_component(f)` calls f(component) for each of some materials whose
+/// sum `evaluate` never exceeds, so that each is bounded in its own best way and jointly with the geometry. The
+/// components are asked for bounds only: it is `evaluate`, or `evaluate_many`, that says what the material reflects.
 template <class M>
 concept CompositeMaterial = Material<M> && requires(const M& m, detail::AnyComponent visit) {
     m.for_each_component(visit);
@@ -94,21 +96,23 @@ concept TwoSidedMaterial = Material<M> && requires(const M& m, const glm::vec3& 
     { m.is_behind(to_light) } -> std::same_as<bool>;
 };
 
-/// `evaluate` for the first `count` lanes: by `evaluate_many` if the material has it, part by part if it is composite.
+/// Sets values[i] to `m.evaluate` of the direction in lane i, for i < count: by `evaluate_many` if the material has it.
+/// pre: 0 < count <= lane_count
 template <Material M>
 void evaluate_lanes(const M& m, const LaneVectors& to_lights, int count, LaneSpectra<material_spectrum<M>>& values) {
     if constexpr (LaneMaterial<M>) {
-        m.evaluate_many(to_lights, values);
-    } else if constexpr (CompositeMaterial<M>) {
-        values = {};
-        m.for_each_component([&](const auto& part) {
-            LaneSpectra<material_spectrum<M>> terms;
-            evaluate_lanes(part, to_lights, count, terms);
-            for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) values[i] = values[i] + terms[i];
-        });
+        m.evaluate_many(to_lights, count, values);
     } else {
         for (int i = 0; i < count; ++i) values[static_cast<std::size_t>(i)] = m.evaluate(to_lights.at(i));
     }
+}
+
+/// Adds `m.evaluate` of the direction in lane i to values[i], for i < count. pre: 0 < count <= lane_count
+template <Material M>
+void add_lanes(const M& m, const LaneVectors& to_lights, int count, LaneSpectra<material_spectrum<M>>& values) {
+    LaneSpectra<material_spectrum<M>> terms;
+    evaluate_lanes(m, to_lights, count, terms);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) values[i] = values[i] + terms[i];
 }
 
 namespace detail {

@@ -7,8 +7,9 @@
 
 #include "../core/assertion.hpp"
 #include "../core/cosine.hpp"
+#include "../core/vector.hpp"
+#include "conservative_rounding.hpp"
 #include "material.hpp"
-#include "outward.hpp"
 
 namespace lightcuts {
 
@@ -21,7 +22,7 @@ public:
     /// A view from below the surface makes a black material.
     ModifiedPhong(const glm::vec3& normal, const glm::vec3& view, const S& specular, float exponent)
         : normal_(in_float_range(glm::normalize(glm::dvec3(normal)))), exponent_(static_cast<double>(exponent)) {
-        LIGHTCUTS_ASSERT(exponent >= 0.0f);
+        LIGHTCUTS_ASSERT(is_unit(normal) && is_unit(view) && exponent >= 0.0f);
         const glm::dvec3 v = glm::normalize(glm::dvec3(view));
         const double facing = glm::dot(normal_, v);
         mirror_ = in_float_range(glm::normalize(2.0 * facing * normal_ - v));
@@ -31,19 +32,19 @@ public:
     S evaluate(const glm::vec3& to_light) const {
         const glm::dvec3 o(to_light);
         const double cosine = detail::dot(normal_, o);
-        if (!(cosine > 0.0 && detail::dot(mirror_, o) > 0.0)) return S{};
+        if (!(cosine > 0.0 && detail::dot(mirror_, o) > 0.0)) return black<S>();
         // 1 - cos of the angle to the mirror direction, free of cancellation and of the error in the length of o.
         const double o2 = detail::dot(o, o);
         const glm::dvec3 chord = o - mirror_ * (0.5 + 0.5 * o2);
         const double away = 0.5 * detail::dot(chord, chord) * (2.0 - o2);
-        return away < 1.0 ? scale_ * static_cast<float>(power(1.0 - away) * cosine) : S{};
+        return away < 1.0 ? scale_ * static_cast<float>(power(1.0 - away) * cosine) : black<S>();
     }
 
     /// cost: about 80 ns
     S upper_bound(const OffsetBox& offsets) const {
-        if (detail::lies_below(normal_, offsets) || detail::lies_below(mirror_, offsets)) return S{};
+        if (detail::lies_below(normal_, offsets) || detail::lies_below(mirror_, offsets)) return black<S>();
         const double along = clamped_max_cosine(mirror_, offsets, 0.01 / (1.0 + exponent_));
-        return bound(detail::turned(along), detail::turned(clamped_max_cosine(normal_, offsets)));
+        return bound(detail::perturbed_cosine(along), detail::perturbed_cosine(clamped_max_cosine(normal_, offsets)));
     }
     /// cost: about 20 ns each
     void quick_upper_bounds(const OffsetBlock& offsets, LaneSpectra<S>& bounds) const {
@@ -52,7 +53,7 @@ public:
         detail::clamped_max_cosines(glm::vec3(normal_), offsets, cosines);
         for (int i = 0; i < lane_count; ++i) {
             const bool is_dark = detail::smaller(along[i], cosines[i]) == 0.0f;
-            bounds[static_cast<std::size_t>(i)] = is_dark ? S{}
+            bounds[static_cast<std::size_t>(i)] = is_dark ? black<S>()
                                                           : bound(static_cast<double>(along[i]),
                                                                   static_cast<double>(cosines[i]));
         }
@@ -80,7 +81,7 @@ private:
     glm::dvec3 normal_;
     glm::dvec3 mirror_;
     double exponent_;
-    S scale_{};
+    S scale_ = black<S>();
 };
 
 }  // namespace lightcuts

@@ -6,18 +6,24 @@
 
 #include <glm/vec3.hpp>
 
+#include "../core/assertion.hpp"
+#include "../core/vector.hpp"
 #include "material.hpp"
 
 namespace lightcuts {
 
 /// A point to be shaded: where it is and what its surface does with light, the outgoing direction being fixed.
-/// `M` may be a reference, so that a material need not be copied.
+/// `M` may be a reference, so that a material need not be copied. pre: positions are finite.
 template <class M>
 struct Receiver {
     constexpr Receiver(const glm::vec3& at, M surface)
-        : position(at), material(std::forward<M>(surface)), shadow_origin(at) {}
+        : position(at), material(std::forward<M>(surface)), shadow_origin(at) {
+        LIGHTCUTS_ASSERT(is_finite(position));
+    }
     constexpr Receiver(const glm::vec3& at, M surface, const glm::vec3& rays_start, std::uint32_t name = 0)
-        : position(at), material(std::forward<M>(surface)), shadow_origin(rays_start), id(name) {}
+        : position(at), material(std::forward<M>(surface)), shadow_origin(rays_start), id(name) {
+        LIGHTCUTS_ASSERT(is_finite(position) && is_finite(shadow_origin));
+    }
 
     glm::vec3 position;
     M material;

@@ -18,6 +18,11 @@ public:
     material_spectrum<M> evaluate(const glm::vec3& to_light) const {
         return first_.evaluate(to_light) + rest_.evaluate(to_light);
     }
+    void evaluate_many(const LaneVectors& to_lights, int count, LaneSpectra<material_spectrum<M>>& values) const
+        requires(LaneMaterial<M> || (LaneMaterial<Ms> || ...)) {
+        evaluate_lanes(first_, to_lights, count, values);
+        rest_.add_many(to_lights, count, values);
+    }
     material_spectrum<M> upper_bound(const OffsetBox& offsets) const
         requires(BoundedMaterial<M> && (BoundedMaterial<Ms> && ...)) {
         return first_.upper_bound(offsets) + rest_.upper_bound(offsets);
@@ -41,6 +46,15 @@ public:
     }
 
 private:
+    template <Material A, Material... As>
+        requires(std::same_as<material_spectrum<A>, material_spectrum<As>>&&...)
+    friend class Sum;
+
+    void add_many(const LaneVectors& to_lights, int count, LaneSpectra<material_spectrum<M>>& values) const {
+        add_lanes(first_, to_lights, count, values);
+        rest_.add_many(to_lights, count, values);
+    }
+
     [[no_unique_address]] M first_;
     [[no_unique_address]] Sum<Ms...> rest_;
 };
@@ -54,6 +68,10 @@ public:
     constexpr explicit Sum(const M& only) : only_(only) {}
 
     material_spectrum<M> evaluate(const glm::vec3& to_light) const { return only_.evaluate(to_light); }
+    void evaluate_many(const LaneVectors& to_lights, int count,
+                       LaneSpectra<material_spectrum<M>>& values) const requires LaneMaterial<M> {
+        only_.evaluate_many(to_lights, count, values);
+    }
     material_spectrum<M> upper_bound(const OffsetBox& offsets) const requires BoundedMaterial<M> {
         return only_.upper_bound(offsets);
     }
@@ -71,6 +89,14 @@ public:
     }
 
 private:
+    template <Material A, Material... As>
+        requires(std::same_as<material_spectrum<A>, material_spectrum<As>>&&...)
+    friend class Sum;
+
+    void add_many(const LaneVectors& to_lights, int count, LaneSpectra<material_spectrum<M>>& values) const {
+        add_lanes(only_, to_lights, count, values);
+    }
+
     [[no_unique_address]] M only_;
 };
 

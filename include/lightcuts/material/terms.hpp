@@ -14,14 +14,15 @@ template <class M, Light L>
 spectrum_of<L> unshadowed_terms(const Receiver<M>& receiver, const L& light) {
     using S = spectrum_of<L>;
     const Incidence arriving = incidence(light, receiver.position);
-    if (!(arriving.geometric > 0.0)) return S{};
-    constexpr double largest = std::numeric_limits<float>::max();
+    if (!(arriving.geometric > 0.0)) return black<S>();
+    constexpr double largest = (std::numeric_limits<float>::max)();
     const double geometric = arriving.geometric < largest ? arriving.geometric : largest;
     return finite(S(receiver.material.evaluate(arriving.to_light) * static_cast<float>(geometric)));
 }
 
-/// The same for the first `count` lights of a block, terms[i] for lane i, in float vector code where the kinds of light
-/// and material allow it. `light_of(i)` is the light itself, for where they do not. pre: 0 < count <= lane_count
+/// Unshadowed terms of the first `count` lights of a block, terms[i] for lane i, in float vector code where the kinds
+/// of light and material allow it. `light_of(i)` is the light itself, for where they do not. pre: 0 < count <=
+/// lane_count
 template <Light L, class M, class LightOf>
 void unshadowed_terms(const Receiver<M>& receiver, const LightBlock& lights, int count, const LightOf& light_of,
                       LaneSpectra<spectrum_of<L>>& terms) {
@@ -45,7 +46,7 @@ void unshadowed_terms(const Receiver<M>& receiver, const LightBlock& lights, int
     }
 }
 
-/// The same for `count` lights `light_of(i)`. pre: 0 < count <= lane_count
+/// Unshadowed terms of `count` lights `light_of(i)`: terms[i] for light i. pre: 0 < count <= lane_count
 template <Light L, class M, class LightOf>
 void unshadowed_terms(const Receiver<M>& receiver, int count, const LightOf& light_of,
                       LaneSpectra<spectrum_of<L>>& terms) {

@@ -25,6 +25,11 @@ struct ThinSheet {
     using S = material_spectrum<Front>;
 
     S evaluate(const glm::vec3& to_light) const { return front().evaluate(to_light) + back().evaluate(to_light); }
+    void evaluate_many(const LaneVectors& to_lights, int count, LaneSpectra<S>& values) const
+        requires(LaneMaterial<Front> || LaneMaterial<Back>) {
+        evaluate_lanes(front(), to_lights, count, values);
+        add_lanes(back(), to_lights, count, values);
+    }
     S upper_bound(const OffsetBox& offsets) const requires(BoundedMaterial<Front>&& BoundedMaterial<Back>) {
         return larger(front().upper_bound(offsets), back().upper_bound(offsets));
     }

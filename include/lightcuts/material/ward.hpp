@@ -5,10 +5,10 @@
 
 #include <glm/vec3.hpp>
 
+#include "conservative_rounding.hpp"
 #include "direction_caps.hpp"
 #include "half_vector.hpp"
 #include "material.hpp"
-#include "outward.hpp"
 
 namespace lightcuts {
 
@@ -53,11 +53,11 @@ public:
         : frame_(normal, view), alpha2_(detail::squared_roughness(alpha)), specular_(specular) {}
 
     S evaluate(const glm::vec3& to_light) const {
-        if (!(frame_.cos_view() > 0.0)) return S{};
+        if (!(frame_.cos_view() > 0.0)) return black<S>();
         const detail::HalfVector h = frame_.of(to_light);
-        if (!(h.cosine > 0.0)) return S{};
+        if (!(h.cosine > 0.0)) return black<S>();
         // Finite, so that no color times it is not a number.
-        constexpr double largest = std::numeric_limits<float>::max();
+        constexpr double largest = (std::numeric_limits<float>::max)();
         const double value = lobe(h.cosine, squared_tangent(h.sin2));
         return specular_ * static_cast<float>(value < largest ? value : largest);
     }
@@ -65,14 +65,14 @@ public:
     /// cost: about 120 ns
     S upper_bound(const OffsetBox& offsets) const {
         const glm::dvec3& n = frame_.normal();
-        if (!(frame_.cos_view() > 0.0) || detail::lies_below(n, offsets)) return S{};
-        const double most = detail::turned(clamped_max_cosine(n, offsets, 0.01));
+        if (!(frame_.cos_view() > 0.0) || detail::lies_below(n, offsets)) return black<S>();
+        const double most = detail::perturbed_cosine(clamped_max_cosine(n, offsets, 0.01));
         const double least = min_cosine(n, offsets, 0.01) - detail::direction_error;
         return bound(least, most, frame_.template range_over<false>(detail::rounded_directions(offsets)).sin2);
     }
     /// cost: about 20 ns each
     void quick_upper_bounds(const OffsetBlock& offsets, LaneSpectra<S>& bounds) const {
-        if (!(frame_.cos_view() > 0.0)) return bounds.fill(S{});
+        if (!(frame_.cos_view() > 0.0)) return bounds.fill(black<S>());
         const glm::vec3 normal(frame_.normal());
         detail::DirectionCaps caps;
         detail::HalfVectorRanges h;

@@ -67,10 +67,11 @@ std::vector<OrientedPointLight<emitter_spectrum<E>>> area_lights(const E& emitte
                                                                  const Numbers& numbers = {}) {
     using S = emitter_spectrum<E>;
     const double wanted = detail::pieces_per_light * static_cast<double>(std::max<std::size_t>(count, 1));
-    const auto pieces = detail::cut_sides(emitter, 1.0 / wanted, 1.0 / std::max(wanted, detail::least_textured_pieces));
+    const auto pieces = detail::cut_sides(emitter, 1.0 / wanted,
+                                          1.0 / (std::max)(wanted, detail::least_textured_pieces));
     double power = 0.0;
     for (const auto& piece : pieces) power += piece.area * channel_sum(piece.radiance);
-    if (!(power > 0.0)) throw invalid_input("emitter: all its triangles are black");
+    if (!(power > 0.0)) LIGHTCUTS_THROW(invalid_input("emitter: all its triangles are black"));
     std::vector<OrientedPointLight<S>> lights;
     if (count == 0) return lights;
 

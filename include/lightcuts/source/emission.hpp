@@ -72,7 +72,7 @@ template <Light L>
     requires(!ProfiledLight<L>)
 double flux_factor(const L& light, const Box& bounds) {
     if constexpr (DirectionalLight<L>) {
-        const glm::dvec3 faces = entered_faces(bounds, -glm::dvec3(place_of(light)));
+        const glm::dvec3 faces = entered_faces(bounds, -glm::dvec3(position_or_direction(light)));
         return faces.x + faces.y + faces.z;
     } else if constexpr (OrientedLight<L>) {
         return std::numbers::pi;
@@ -100,7 +100,7 @@ inline Flight parallel_flight(const glm::dvec3& direction, const Box& bounds, co
 template <Light L>
 Flight flight_from(const L& light, const EmissionStaircase* profile, const Box& bounds, const glm::dvec2& uv,
                    double w) {
-    const glm::dvec3 place(place_of(light));
+    const glm::dvec3 place(position_or_direction(light));
     if constexpr (DirectionalLight<L>) {
         return parallel_flight(-place, bounds, uv, w);
     } else if constexpr (OrientedLight<L>) {

@@ -37,7 +37,7 @@ using emitter_spectrum = std::remove_cvref_t<decltype(std::declval<const E&>().r
 template <Spectrum S = glm::vec3>
 struct EmissiveTriangle {
     glm::vec3 a, b, c;
-    S radiance{};
+    S radiance = black<S>();
     bool two_sided = false;
 };
 

@@ -95,12 +95,13 @@ namespace detail {
 template <class Pixels>
 double validated_power(const EnvironmentMap<Pixels>& map) {
     if (map.height == 0 || map.width != 2 * std::uint64_t{map.height}) {
-        throw invalid_input("environment map: " + std::to_string(map.width) + " x " + std::to_string(map.height) +
-                            " pixels are not twice as wide as high, so this is no latitude-longitude map");
+        LIGHTCUTS_THROW(invalid_input("environment map: " + std::to_string(map.width) + " x " +
+                                      std::to_string(map.height) +
+                                      " pixels are not twice as wide as high, so this is no latitude-longitude map"));
     }
     if (!(map.scale > 0.0f && map.scale - map.scale == 0.0f && map.rotation - map.rotation == 0.0f)) {
-        throw invalid_input("environment map: scale " + std::to_string(map.scale) + " or rotation " +
-                            std::to_string(map.rotation) + " is not finite, or the scale is not positive");
+        LIGHTCUTS_THROW(invalid_input("environment map: scale " + std::to_string(map.scale) + " or rotation " +
+                                      std::to_string(map.rotation) + " is not finite, or the scale is not positive"));
     }
     double total = 0.0;
     for (std::uint32_t y = 0; y < map.height; ++y) {
@@ -110,9 +111,9 @@ double validated_power(const EnvironmentMap<Pixels>& map) {
             for (int i = 0; i < channels_of<typename EnvironmentMap<Pixels>::spectrum>; ++i) {
                 const float c = channel(radiance, i);
                 if (!(c >= 0.0f && c - c == 0.0f)) {
-                    throw invalid_input("environment map, pixel (" + std::to_string(x) + ", " + std::to_string(y) +
-                                        "): radiance " + std::to_string(c) +
-                                        (c < 0.0f ? " is negative" : " is not finite"));
+                    LIGHTCUTS_THROW(invalid_input("environment map, pixel (" + std::to_string(x) + ", " +
+                                                  std::to_string(y) + "): radiance " + std::to_string(c) +
+                                                  (c < 0.0f ? " is negative" : " is not finite")));
                 }
             }
             row += channel_sum(radiance);
@@ -120,7 +121,7 @@ double validated_power(const EnvironmentMap<Pixels>& map) {
         total += row * map.solid_angle(y);
     }
     total *= static_cast<double>(map.scale);
-    if (!(total > 0.0)) throw invalid_input("environment map: all pixels are black");
+    if (!(total > 0.0)) LIGHTCUTS_THROW(invalid_input("environment map: all pixels are black"));
     return total;
 }
 

@@ -71,14 +71,15 @@ public:
                 bool valid = power - power == 0.0;
                 for (int c = 0; c < channels_of<S>; ++c) valid = valid && channel(intensity, c) >= 0.0f;
                 if (!valid) {
-                    throw invalid_input("virtual lights: light " + std::to_string(i) + " of kind " +
-                                        std::to_string(kind) + " has a power that is negative or not finite");
+                    LIGHTCUTS_THROW(invalid_input("virtual lights: light " + std::to_string(i) + " of kind " +
+                                                  std::to_string(kind) +
+                                                  " has a power that is negative or not finite"));
                 }
                 choice_.add(power);
             }
         });
         if (!(choice_.total() > 0.0)) {
-            throw invalid_input("virtual lights: no light emits anything, so no particle starts");
+            LIGHTCUTS_THROW(invalid_input("virtual lights: no light emits anything, so no particle starts"));
         }
         choice_.prepare();
     }
@@ -90,7 +91,7 @@ public:
 
     /// Calls `f(light, particle)`. `u`: which light; `uv`, `w`: which way.
     template <class F>
-    void emit(double u, const glm::dvec2& uv, double w, F&& f) const {
+    void emit_ray(double u, const glm::dvec2& uv, double w, F&& f) const {
         const std::size_t at = choice_(u);
         sources_.for_each([&](std::uint32_t kind, const auto& lights) {
             if (at < first_[kind] || at - first_[kind] >= lights.size()) return;

@@ -27,7 +27,7 @@ template <Spectrum S = glm::vec3>
 struct ScatteredParticle {
     glm::vec3 origin{0.0f};  ///< moved off the surface, as shadow rays are
     glm::vec3 direction{0.0f, 0.0f, 1.0f};
-    S weight{};  ///< BRDF x cosine / density of the direction; black if it is absorbed
+    S weight = black<S>();  ///< BRDF x cosine / density of the direction; black if it is absorbed
 };
 
 /// What particles need to know of a scene. It is used by several threads if the executor has them.
@@ -95,10 +95,10 @@ void leave_light(const Scene& scene, const Hit& hit, const S& power, double roul
                  std::vector<OrientedPointLight<S>>& lights) {
     const S reflected = power * S(scene.diffuse_albedo(hit));
     const double front = channel_sum(reflected);
-    S transmitted{};
+    S transmitted = black<S>();
     if constexpr (TransmissiveParticleScene<Scene, S>) transmitted = power * S(scene.diffuse_transmittance(hit));
     const double behind = channel_sum(transmitted);
-    const double whole = std::max(front + behind, 1.0);
+    const double whole = (std::max)(front + behind, 1.0);
     const auto add = [&](const glm::vec3& position, const glm::vec3& normal, const S& leaving, double sum) {
         const double scale = whole / (std::numbers::pi * sum);
         lights.push_back({position, normal, S(leaving * static_cast<float>(scale)), {}});
@@ -125,7 +125,7 @@ void follow(const Scene& scene, const Emission& emission, const Numbers& numbers
         return u;
     };
     const std::array<double, 4> start = four_numbers(0);
-    emission.emit(start[0], {start[2], start[3]}, start[1], [&](const auto& light, const auto& emitted) {
+    emission.emit_ray(start[0], {start[2], start[3]}, start[1], [&](const auto& light, const auto& emitted) {
         using L = std::remove_cvref_t<decltype(light)>;
         S power = emitted.power;
         glm::vec3 direction(emitted.flight.direction);
@@ -143,7 +143,7 @@ void follow(const Scene& scene, const Emission& emission, const Numbers& numbers
             const double roulette = drawn[3];
             leave_light(scene, *hit, power, roulette, tally.lights);
             const auto below_one = [&](std::size_t d) {
-                return std::min(static_cast<float>(drawn[d]), 1.0f - 0x1p-24f);
+                return (std::min)(static_cast<float>(drawn[d]), 1.0f - 0x1p-24f);
             };
             const glm::vec3 u(below_one(0), below_one(1), below_one(2));
             const ScatteredParticle<S> scattered = scene.scatter(*hit, direction, u);
@@ -168,7 +168,7 @@ ParticleTally<typename Emission::S> follow_all(const Scene& scene, const Emissio
     std::vector<Tally> tallies((count + block - 1) / block);
     execute(tallies.size(), [&](std::size_t b) {
         const auto begin = static_cast<std::uint32_t>(b) * block;
-        const std::uint32_t end = std::min(begin + block, count);
+        const std::uint32_t end = (std::min)(begin + block, count);
         for (std::uint32_t i = begin; i < end; ++i) {
             follow(scene, emission, numbers, first + i, longest_path, tallies[b]);
         }
@@ -213,7 +213,7 @@ auto virtual_lights(const Scene& scene, const ParticleSources<Ls...>& sources, c
     if constexpr (ParticleSources<Ls...>::has_directional) {
         bounds = scene.bounds();
         if (is_empty(bounds) || !is_finite(bounds.lo) || !is_finite(bounds.hi)) {
-            throw invalid_input("virtual lights: the scene's bounds are empty or not finite");
+            LIGHTCUTS_THROW(invalid_input("virtual lights: the scene's bounds are empty or not finite"));
         }
     }
     const detail::ParticleEmission<ParticleSources<Ls...>> emission(sources, bounds);
@@ -233,12 +233,13 @@ auto virtual_lights(const Scene& scene, const ParticleSources<Ls...>& sources, c
         left += tally.lights.size();
     }
     if (landed == 0) {
-        throw invalid_input("virtual lights: none of " + std::to_string(followed) +
-                            " particles from the lights met a surface");
+        LIGHTCUTS_THROW(invalid_input("virtual lights: none of " + std::to_string(followed) +
+                                      " particles from the lights met a surface"));
     }
     if (left == 0) {
-        throw invalid_input("virtual lights: of " + std::to_string(followed) + " particles " + std::to_string(landed) +
-                            " met a surface, but none was reflected or let through diffusely");
+        LIGHTCUTS_THROW(invalid_input("virtual lights: of " + std::to_string(followed) + " particles " +
+                                      std::to_string(landed) +
+                                      " met a surface, but none was reflected or let through diffusely"));
     }
     const double wanted = static_cast<double>(options.lights) * static_cast<double>(followed) /
                           static_cast<double>(left);

@@ -22,8 +22,8 @@ public:
         glm::dvec3 lo(0.0), hi(0.0);
         for (std::size_t i = 0; i < members.size(); ++i) {
             const glm::dvec3& p = points_[members[i]];
-            lo = i == 0 ? p : glm::min(lo, p);
-            hi = i == 0 ? p : glm::max(hi, p);
+            lo = i == 0 ? p : (glm::min)(lo, p);
+            hi = i == 0 ? p : (glm::max)(hi, p);
         }
         const glm::dvec3 size = hi - lo;
         const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;

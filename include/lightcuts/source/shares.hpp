@@ -31,9 +31,9 @@ private:
 /// One of several parts of equal weight of a stream of pieces, and the point of it where its light goes.
 template <class Piece, Spectrum S>
 struct Share {
-    Piece piece{};        ///< that the point lies in
-    double fraction = 0;  ///< of the piece before the point, in [0, 1)
-    S power{};            ///< of the whole share
+    Piece piece{};         ///< that the point lies in
+    double fraction = 0;   ///< of the piece before the point, in [0, 1)
+    S power = black<S>();  ///< of the whole share
 };
 
 /// Cuts a stream of pieces, consecutive along some curve, into `count` shares of equal weight. A piece may be cut into

@@ -23,7 +23,7 @@ template <Spectrum S = glm::vec3>
 struct SphereLight {
     glm::vec3 centre{0.0f};
     float radius = 1.0f;
-    S intensity{};  ///< W/sr, seen from far away: pi x radius^2 x radiance
+    S intensity = black<S>();  ///< W/sr, seen from far away: pi x radius^2 x radiance
 };
 
 /// The intensity of a sphere of `radius` whose surface emits `radiance`, W/(m^2 sr).
@@ -37,7 +37,7 @@ S sphere_intensity(float radius, const S& radiance) {
 template <Spectrum S = glm::vec3>
 struct SpherePointLight {
     glm::vec3 position{0.0f};
-    S intensity{};             ///< W/sr
+    S intensity = black<S>();  ///< W/sr
     std::uint32_t sphere = 0;  ///< index into the spheres that it was made of
 };
 
@@ -79,7 +79,7 @@ std::vector<SpherePointLight<S>> sphere_lights(std::span<const SphereLight<S>> s
     for (std::uint32_t i = 0; i < spheres.size(); ++i) {
         const SphereLight<S>& sphere = spheres[i];
         const auto refuse = [&](const std::string& what) {
-            throw invalid_input("spherical light " + std::to_string(i) + ": " + what);
+            LIGHTCUTS_THROW(invalid_input("spherical light " + std::to_string(i) + ": " + what));
         };
         if (!is_finite(sphere.centre)) refuse("its centre is not finite");
         if (!(sphere.radius > 0.0f && sphere.radius - sphere.radius == 0.0f)) {

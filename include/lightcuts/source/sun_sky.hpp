@@ -39,7 +39,8 @@ public:
           sun_(glm::vec3(detail::sun_luminance(zenith_angle(position), position.turbidity) / efficacy)) {
         for (int c = 0; c < 3; ++c) {
             if (!(ground_albedo[c] >= 0.0f && ground_albedo[c] <= 1.0f)) {
-                throw invalid_input("ground: albedo " + std::to_string(ground_albedo[c]) + " is not in 0 to 1");
+                LIGHTCUTS_THROW(
+                    invalid_input("ground: albedo " + std::to_string(ground_albedo[c]) + " is not in 0 to 1"));
             }
         }
         if (ground_albedo != glm::vec3(0.0f)) {
@@ -101,12 +102,12 @@ private:
     static double zenith_angle(const SunPosition& p) { return radians(90.0 - p.elevation); }
     static glm::dvec3 direction_of(const SunPosition& p) {
         if (!(p.elevation >= 0.0 && p.elevation <= 90.0)) {
-            throw invalid_input("sun: elevation " + std::to_string(p.elevation) +
-                                " is not in 0 to 90 degrees; the sky's model ends at the horizon");
+            LIGHTCUTS_THROW(invalid_input("sun: elevation " + std::to_string(p.elevation) +
+                                          " is not in 0 to 90 degrees; the sky's model ends at the horizon"));
         }
-        if (!(p.azimuth - p.azimuth == 0.0)) throw invalid_input("sun: the azimuth is not finite");
+        if (!(p.azimuth - p.azimuth == 0.0)) LIGHTCUTS_THROW(invalid_input("sun: the azimuth is not finite"));
         if (!(p.turbidity >= 2.0 && p.turbidity <= 10.0)) {
-            throw invalid_input("sky: turbidity " + std::to_string(p.turbidity) + " is not in 2 to 10");
+            LIGHTCUTS_THROW(invalid_input("sky: turbidity " + std::to_string(p.turbidity) + " is not in 2 to 10"));
         }
         const double up = radians(p.elevation), around = radians(p.azimuth);
         return {std::sin(around) * std::cos(up), std::sin(up), std::cos(around) * std::cos(up)};

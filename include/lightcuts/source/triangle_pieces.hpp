@@ -71,8 +71,8 @@ void validate_radiance(const S& radiance, std::uint32_t triangle) {
     for (int i = 0; i < channels_of<S>; ++i) {
         const float c = channel(radiance, i);
         if (!(c >= 0.0f && c - c == 0.0f)) {
-            throw invalid_input("emitter, triangle " + std::to_string(triangle) + ": radiance " + std::to_string(c) +
-                                (c < 0.0f ? " is negative" : " is not finite"));
+            LIGHTCUTS_THROW(invalid_input("emitter, triangle " + std::to_string(triangle) + ": radiance " +
+                                          std::to_string(c) + (c < 0.0f ? " is negative" : " is not finite")));
         }
     }
 }
@@ -129,7 +129,7 @@ std::vector<TrianglePiece<emitter_spectrum<E>>> shining_sides(const E& emitter) 
         const Facet facet = facet_of(emitter, t);
         const double area = 0.5 * glm::length(facet.cross());
         if (!(area - area == 0.0)) {
-            throw invalid_input("emitter, triangle " + std::to_string(t) + ": a corner is not finite");
+            LIGHTCUTS_THROW(invalid_input("emitter, triangle " + std::to_string(t) + ": a corner is not finite"));
         }
         if (!(area > 0.0)) continue;
         TrianglePiece<emitter_spectrum<E>> side{{glm::vec2(0.0f), {1.0f, 0.0f}, {0.0f, 1.0f}}, t, false, area, {}};
@@ -141,7 +141,9 @@ std::vector<TrianglePiece<emitter_spectrum<E>>> shining_sides(const E& emitter) 
         side.back = true;
         if (is_two_sided(emitter, t)) sides.push_back(side);
     }
-    if (sides.empty()) throw invalid_input("emitter: its " + std::to_string(count) + " triangles have no area");
+    if (sides.empty()) {
+        LIGHTCUTS_THROW(invalid_input("emitter: its " + std::to_string(count) + " triangles have no area"));
+    }
     return sides;
 }
 

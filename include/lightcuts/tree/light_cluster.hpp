@@ -13,13 +13,13 @@ namespace detail {
 /// Takes the place of a member that a kind of light does not need; tagged, since two empty members of one type
 /// cannot share an address.
 template <class Tag>
-struct Absent {};
+struct Empty {};
 struct ConeTag {};
 struct EnvelopeTag {};
 
 template <class L>
 struct EnvelopeType {
-    using type = Absent<EnvelopeTag>;
+    using type = Empty<EnvelopeTag>;
 };
 template <class L>
     requires requires(const L& l) { envelope_of(l); }
@@ -36,7 +36,7 @@ struct LightCluster {
     using spectrum = spectrum_of<L>;
     static constexpr bool oriented = OrientedLight<L>;
     static constexpr bool enveloped = requires(const L& l) { detail::envelope_of(l); };
-    using cone_type = std::conditional_t<oriented, Cone, detail::Absent<detail::ConeTag>>;
+    using cone_type = std::conditional_t<oriented, Cone, detail::Empty<detail::ConeTag>>;
     using envelope_type = typename detail::EnvelopeType<L>::type;
 
     Box box;
@@ -49,7 +49,7 @@ struct LightCluster {
 template <Light L>
 LightCluster<L> cluster_of(const L& light) {
     LightCluster<L> cluster;
-    cluster.box = box_of(place_of(light));
+    cluster.box = box_of(position_or_direction(light));
     cluster.intensity = detail::intensity_of(light);
     if constexpr (LightCluster<L>::oriented) cluster.cone = cone_of(to_vec3(detail::axis_of(light)));
     if constexpr (LightCluster<L>::enveloped) cluster.envelope = detail::envelope_of(light);

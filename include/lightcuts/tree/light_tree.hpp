@@ -100,7 +100,8 @@ public:
                        const E& execute = {})
         : lights_(lights), options_(options) {
         if (options.representatives < 1 || options.representatives > 32) {
-            throw invalid_input("representatives: " + std::to_string(options.representatives) + " is not in 1 to 32");
+            LIGHTCUTS_THROW(
+                invalid_input("representatives: " + std::to_string(options.representatives) + " is not in 1 to 32"));
         }
         build_topology(builder, execute);
         update();
@@ -152,7 +153,7 @@ private:
     using Item = std::conditional_t<cluster::oriented, OrientedItem, PointItem>;
 
     [[noreturn]] static void reject(std::size_t index, const char* what) {
-        throw invalid_input("light " + std::to_string(index) + ": " + what);
+        LIGHTCUTS_THROW(invalid_input("light " + std::to_string(index) + ": " + what));
     }
 
     /// What the nodes know, of the lights as they are now. One pass over all of it: `summarize` once for extents and
@@ -214,7 +215,7 @@ private:
         if constexpr (DirectionalLight<L>) {
             check_unit(to_vec3(detail::direction_of(light)), index, "direction is not of unit length");
         }
-        item.position = place_of(light);
+        item.position = position_or_direction(light);
         if (!is_finite(item.position)) reject(index, "position is not finite");
         if constexpr (cluster::oriented) {
             item.axis = to_vec3(detail::axis_of(light));
@@ -235,7 +236,9 @@ private:
     void build_topology(const Builder& builder, const E& execute) {
         std::vector<Item> items;
         std::vector<std::uint32_t> light_of;
-        if (lights_.size() > ClusterTree::max_items) throw invalid_input("more than 2^30 lights in one tree");
+        if (lights_.size() > ClusterTree::max_items) {
+            LIGHTCUTS_THROW(invalid_input("more than 2^30 lights in one tree"));
+        }
         items.reserve(lights_.size());
         for (std::size_t i = 0; i < lights_.size(); ++i) {
             const Item item = checked_item(lights_[i], i);
@@ -248,7 +251,8 @@ private:
             }
         }
         tree_ = builder(std::span<const Item>(items), execute);
-        if (!tree_.is_binary()) throw invalid_input("light tree: its builder made a tree that is not binary");
+        if (!tree_.is_binary())
+            LIGHTCUTS_THROW(invalid_input("light tree: its builder made a tree that is not binary"));
         if (!light_of.empty()) tree_ = relabelled(tree_, light_of, lights_.size());
     }
 

@@ -124,8 +124,9 @@ private:
             }
             begin_.push_back(static_cast<std::uint32_t>(leaves_.size()));
         }
-        if (leaves_.size() > std::numeric_limits<std::uint32_t>::max()) {
-            throw invalid_input("representatives: so many lights have more than 2^32 of them; ask for fewer a node");
+        if (leaves_.size() > (std::numeric_limits<std::uint32_t>::max)()) {
+            LIGHTCUTS_THROW(
+                invalid_input("representatives: so many lights have more than 2^32 of them; ask for fewer a node"));
         }
     }
 

@@ -18,7 +18,7 @@ namespace lightcuts {
 /// throws: invalid_input naming the first node that is wrong. cost: O(item_bound).
 inline void validate(const ClusterTree& tree) {
     const auto refuse = [](std::size_t node, const std::string& what) {
-        throw invalid_input("cluster tree, node " + std::to_string(node) + ": " + what);
+        LIGHTCUTS_THROW(invalid_input("cluster tree, node " + std::to_string(node) + ": " + what));
     };
     const std::vector<std::uint32_t>& words = tree.words();
     if (words.empty()) return;
@@ -60,10 +60,11 @@ void validate(const ClusterTree& tree, const std::vector<T>& summaries, Agrees&&
     constexpr bool takes_two = std::predicate<Agrees&, const T&, const T&, const T&>;
     validate(tree);
     if (summaries.size() != tree.size()) {
-        throw invalid_input("cluster tree: " + std::to_string(tree.size()) + " nodes, but " +
-                            std::to_string(summaries.size()) + " summaries");
+        LIGHTCUTS_THROW(invalid_input("cluster tree: " + std::to_string(tree.size()) + " nodes, but " +
+                                      std::to_string(summaries.size()) + " summaries"));
     }
-    if (takes_two && !tree.is_binary()) throw invalid_input("cluster tree: not every inner node has two children");
+    if (takes_two && !tree.is_binary())
+        LIGHTCUTS_THROW(invalid_input("cluster tree: not every inner node has two children"));
     std::vector<T> children;
     const auto good = [&](ClusterTree::node_index n) {
         if constexpr (takes_two) {
@@ -77,8 +78,8 @@ void validate(const ClusterTree& tree, const std::vector<T>& summaries, Agrees&&
     };
     for (ClusterTree::node_index n = 0; n < tree.size(); ++n) {
         if (!tree.is_leaf(n) && !good(n)) {
-            throw invalid_input("cluster tree, node " + std::to_string(n) +
-                                ": its summary disagrees with its children");
+            LIGHTCUTS_THROW(
+                invalid_input("cluster tree, node " + std::to_string(n) + ": its summary disagrees with its children"));
         }
     }
 }

@@ -44,15 +44,47 @@ concept TintingOracle = !std::same_as<S, float> &&
     visible.many(queries, answers);
 };
 
-/// What every algorithm asks of visibility: one of the forms above. Where several exist, `many` is used, and the one
-/// with spectra.
-template <class O, class R, class L>
-concept VisibilityOracle = ScalarOracle<O, R, L> || BatchedOracle<O> || TintingOracle<O, spectrum_of<L>>;
-
 namespace detail {
 
 template <class O, class S>
 concept AnswersMany = BatchedOracle<O> || TintingOracle<O, S>;
+
+/// A second `many` beside that of `O`, if it has one: then the name is ambiguous.
+struct OtherMany {
+    int many;
+};
+template <class O>
+struct WithOtherMany : O, OtherMany {};
+
+/// True if `O` has a member `many`, whatever it is.
+template <class O>
+constexpr bool has_many() {
+    if constexpr (std::is_class_v<O> && !std::is_final_v<O>) {
+        return !requires { &WithOtherMany<O>::many; };
+    } else {
+        return false;
+    }
+}
+
+/// True; says so if an oracle that answers about one light has a `many` that cannot be called.
+template <class O, class S>
+constexpr bool is_many_usable() {
+    static_assert(AnswersMany<O, S> || !has_many<O>(),
+                  "this oracle's many cannot be called, so it would be asked one light at a time: it has to be "
+                  "void many(std::span<const lightcuts::VisibilityQuery>, std::span<float>) const, with floats or the "
+                  "lights' spectrum");
+    return true;
+}
+
+}  // namespace detail
+
+/// What every algorithm asks of visibility: one of the forms above. Where several exist, `many` is used, and the one
+/// with spectra. A `many` with other arguments, or that is not const, is an error and not ignored.
+template <class O, class R, class L>
+concept VisibilityOracle = (ScalarOracle<O, R, L> && detail::is_many_usable<O, spectrum_of<L>>()) || BatchedOracle<O> ||
+                           TintingOracle<O, spectrum_of<L>>;
+
+namespace detail {
 
 /// What `many` answers about lights of spectrum `S`.
 template <class O, class S>
@@ -83,7 +115,7 @@ constexpr auto as_factor(const A& answer) {
 template <class O, class S, class Scratch>
 std::vector<many_answer<O, S>>& answers_for(Scratch& scratch) {
     if constexpr (TintingOracle<O, S>) {
-        return scratch.tints;
+        return scratch.transmittances;
     } else {
         return scratch.answers;
     }
@@ -112,7 +144,7 @@ using place_box = std::conditional_t<DirectionalLight<L>, DirectionBox, Box>;
 /// An oracle that also says of a whole cluster how much can be visible of it: `upper_bound(receiver, box)`, no light in
 /// `box` is visible by a larger fraction, in any channel. `box` is a Box of positions for point lights, a DirectionBox
 /// for directional ones; a cut makes use of the one it finds. Asked before a cluster is split: what is certainly hidden
-/// is never refined. It pays where a shadow ray is much dearer than this bound, or where much is hidden.
+/// is never refined. It pays where a shadow ray is much more expensive than this bound, or where much is hidden.
 template <class O, class R, class L>
 concept BoundedOracle = requires(const O& visible, const R& receiver, const place_box<L>& box) {
     { visible.upper_bound(receiver, box) } -> std::convertible_to<float>;

@@ -40,15 +40,15 @@ public:
     template <class Item>
     Agglomerator(std::span<const Item> items, const NormalizedSpace& space, double direction)
         : linkage_(items.size()), direction_(direction) {
-        float least = std::numeric_limits<float>::max(), most = 0;
+        float least = (std::numeric_limits<float>::max)(), most = 0;
         clusters_.reserve(items.size());
         nodes_.reserve(items.size());
         for (std::size_t i = 0; i < items.size(); ++i) {
             const auto index = static_cast<std::uint32_t>(i);
             clusters_.push_back(cluster_of<Oriented>(items[i], index, space));
             nodes_.push_back(index);
-            least = std::min(least, items[i].weight);
-            most = std::max(most, items[i].weight);
+            least = (std::min)(least, items[i].weight);
+            most = (std::max)(most, items[i].weight);
         }
         // Bounds are floats: weights have the most room for spread around 1.
         per_weight_ = std::sqrt(static_cast<double>(most) / static_cast<double>(least));
@@ -132,7 +132,7 @@ private:
             constexpr std::uint32_t grain = 256;
             execute((count + grain - 1) / grain, [&](std::size_t task) {
                 const auto first = static_cast<std::uint32_t>(task) * grain;
-                for (std::uint32_t s = first; s < std::min(first + grain, count); ++s) find_neighbor(tree, s);
+                for (std::uint32_t s = first; s < (std::min)(first + grain, count); ++s) find_neighbor(tree, s);
             });
         }
         std::uint32_t left = count;

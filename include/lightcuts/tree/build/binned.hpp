@@ -58,7 +58,7 @@ public:
             if (!(extent > 0) || gains[i] < least_gain) continue;
             // Just under bin_count / extent, so that the upper end falls into the last bin.
             const float scale = static_cast<float>(bin_count_) * 0.999999f / extent;
-            axes_[live_count_++] = {a, bounds.lo[a], std::min(scale, std::numeric_limits<float>::max()),
+            axes_[live_count_++] = {a, bounds.lo[a], (std::min)(scale, (std::numeric_limits<float>::max)()),
                                     static_cast<float>(bin_count_ - 1)};
         }
         for (std::size_t k = 0; k < live_count_; ++k) {
@@ -131,7 +131,7 @@ private:
 
         std::size_t bin(const Item& i) const {
             const float t = (i.lane[lane] - origin) * scale;
-            return static_cast<std::size_t>(static_cast<int>(std::max(0.0f, std::min(t, last_bin))));
+            return static_cast<std::size_t>(static_cast<int>((std::max)(0.0f, (std::min)(t, last_bin))));
         }
     };
 
@@ -199,7 +199,7 @@ Split<Dimensions> Binned::split(const BuildRange<Dimensions>& range, const Norma
     const bool sampled = sample > 0 && items.size() > 2 * sample;
     const auto visit = [&](auto&& visitor) {
         if (sampled) {
-            detail::visit_sample<Item>(items, std::max(sample, items.size() / 8), visitor);
+            detail::visit_sample<Item>(items, (std::max)(sample, items.size() / 8), visitor);
         } else {
             visitor(std::span<const Item>(items));
         }

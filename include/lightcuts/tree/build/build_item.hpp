@@ -57,7 +57,7 @@ Built positioned(const Item& item, std::uint32_t index, const NormalizedSpace& s
     const auto position = space.position(item.position);
     std::copy(position.begin(), position.end(), built.lane);
     // Splitters compare products of weights and lengths, which zeros would make all alike.
-    built.lane[3] = std::max(static_cast<float>(space.weight(item.weight)), std::numeric_limits<float>::min());
+    built.lane[3] = (std::max)(static_cast<float>(space.weight(item.weight)), (std::numeric_limits<float>::min)());
     built.set_item(index);
     return built;
 }

@@ -57,9 +57,9 @@ struct BuildBounds {
         std::array<float, Dimensions> gains;
         for (std::size_t i = 0; i < gains.size(); ++i) gains[i] = extent2(Item::axes[i]);
         if constexpr (Dimensions == 6) {
-            constexpr float least = std::numeric_limits<float>::min();
-            const float of_position = 1 / std::max(std::sqrt(diagonal2()), least);
-            const float of_direction = direction_share / std::max(std::sqrt(direction_diagonal2()), least);
+            constexpr float least = (std::numeric_limits<float>::min)();
+            const float of_position = 1 / (std::max)(std::sqrt(diagonal2()), least);
+            const float of_direction = direction_share / (std::max)(std::sqrt(direction_diagonal2()), least);
             for (std::size_t i = 0; i < gains.size(); ++i) gains[i] *= i < 3 ? of_position : of_direction;
         }
         return gains;

@@ -83,7 +83,7 @@ inline HalfAngle half_between_axes(const BuildCluster<true>& a, const BuildClust
     const glm::dvec3 u(a.cone.axis), v(b.cone.axis);
     const glm::dvec3 w = glm::cross(u, v);
     const double scale = a.inverse_length * b.inverse_length;
-    const double sine = std::sqrt(std::max(dot(w, w), 1e-60)) * scale;
+    const double sine = std::sqrt((std::max)(dot(w, w), 1e-60)) * scale;
     const double cosine = dot(u, v) * scale;
     if (cosine >= 0) {
         const double c = std::sqrt(0.5 + 0.5 * cosine);
@@ -99,7 +99,7 @@ inline double merged_one_minus_cos(const BuildCluster<true>& a, const BuildClust
     const HalfAngle sum = (a.half + b.half) + half_between_axes(a, b);  // beta, unless one cone holds the other
     double merged = 2;
     if (sum.sin >= 0) merged = sum.cos > 0 ? sum.sin * sum.sin / (1 + sum.cos) : 1 - sum.cos;
-    return std::max(merged, std::max(one_minus_cos(a.cone), one_minus_cos(b.cone)));
+    return (std::max)(merged, (std::max)(one_minus_cos(a.cone), one_minus_cos(b.cone)));
 }
 
 /// What makes the size strictly monotone as computed: size(a, b + c) > size(a, b), unless both are zero. Boxes and sums
@@ -115,8 +115,8 @@ template <bool Oriented>
                                            double direction) {
     double size = 0;
     for (std::size_t i = 0; i < 3; ++i) {
-        const double e = static_cast<double>(std::max(a.hi[i], b.hi[i])) -
-                         static_cast<double>(std::min(a.lo[i], b.lo[i]));
+        const double e = static_cast<double>((std::max)(a.hi[i], b.hi[i])) -
+                         static_cast<double>((std::min)(a.lo[i], b.lo[i]));
         size += e * e;
     }
     if constexpr (Oriented) {
@@ -151,12 +151,12 @@ template <bool Oriented>
 BuildCluster<Oriented> merge(const BuildCluster<Oriented>& a, const BuildCluster<Oriented>& b) {
     BuildCluster<Oriented> c = a;
     for (std::size_t i = 0; i < 3; ++i) {
-        c.lo[i] = std::min(a.lo[i], b.lo[i]);
-        c.hi[i] = std::max(a.hi[i], b.hi[i]);
+        c.lo[i] = (std::min)(a.lo[i], b.lo[i]);
+        c.hi[i] = (std::max)(a.hi[i], b.hi[i]);
     }
     c.weight = a.weight + b.weight;
     c.count = a.count + b.count;
-    c.id = std::min(a.id, b.id);
+    c.id = (std::min)(a.id, b.id);
     if constexpr (Oriented) {
         if (!(a.cone == b.cone)) {
             set_cone(c, a.id < b.id ? lightcuts::merge(a.cone, b.cone) : lightcuts::merge(b.cone, a.cone));

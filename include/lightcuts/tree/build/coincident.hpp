@@ -57,8 +57,8 @@ void merge_coincident(const std::vector<BuildCluster<Oriented>>& clusters, Join&
             queue.pop();
             const auto [count_b, b] = queue.top();
             queue.pop();
-            join(std::min(a, b), std::max(a, b));
-            queue.push({count_a + count_b, std::min(a, b)});
+            join((std::min)(a, b), (std::max)(a, b));
+            queue.push({count_a + count_b, (std::min)(a, b)});
         }
     }
 }

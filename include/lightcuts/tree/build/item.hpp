@@ -40,8 +40,8 @@ concept HasAxis = requires(const Item& i) {
 /// throws: invalid_input if a tree cannot hold so many items.
 inline void check_count(std::size_t items) {
     if (items > ClusterTree::max_items) {
-        throw invalid_input("a cluster tree holds at most " + std::to_string(ClusterTree::max_items) + " items, not " +
-                            std::to_string(items));
+        LIGHTCUTS_THROW(invalid_input("a cluster tree holds at most " + std::to_string(ClusterTree::max_items) +
+                                      " items, not " + std::to_string(items)));
     }
 }
 
@@ -51,9 +51,11 @@ void check_items(std::span<const Item> items) {
     check_count(items.size());
     for (std::size_t i = 0; i < items.size(); ++i) {
         const Item& item = items[i];
-        const auto refuse = [i](const char* what) { throw invalid_input("item " + std::to_string(i) + ": " + what); };
+        const auto refuse = [i](const char* what) {
+            LIGHTCUTS_THROW(invalid_input("item " + std::to_string(i) + ": " + what));
+        };
         if (!is_finite(item.position)) refuse("the position is not finite");
-        if (!(item.weight > 0.0f && item.weight <= std::numeric_limits<float>::max())) {
+        if (!(item.weight > 0.0f && item.weight <= (std::numeric_limits<float>::max)())) {
             refuse("the weight is not positive and finite; leave out lights that are dark");
         }
         if constexpr (HasAxis<Item>) {
@@ -65,8 +67,8 @@ void check_items(std::span<const Item> items) {
 
 /// throws: invalid_input if `length`, what a builder's option gives in world units, is no length.
 inline void check_direction_length(const std::optional<double>& length) {
-    if (length && !(*length >= 0 && *length <= static_cast<double>(std::numeric_limits<float>::max()))) {
-        throw invalid_input("direction_length: a length in world units, 0 or more, is needed");
+    if (length && !(*length >= 0 && *length <= static_cast<double>((std::numeric_limits<float>::max)()))) {
+        LIGHTCUTS_THROW(invalid_input("direction_length: a length in world units, 0 or more, is needed"));
     }
 }
 

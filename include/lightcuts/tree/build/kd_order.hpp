@@ -61,8 +61,8 @@ private:
         std::array<float, axis_count> lo = keys[0].coordinate, hi = lo;
         for (const Key& k : keys) {
             for (std::size_t a = 0; a < axis_count; ++a) {
-                lo[a] = std::min(lo[a], k.coordinate[a]);
-                hi[a] = std::max(hi[a], k.coordinate[a]);
+                lo[a] = (std::min)(lo[a], k.coordinate[a]);
+                hi[a] = (std::max)(hi[a], k.coordinate[a]);
             }
         }
         std::size_t longest = 0;

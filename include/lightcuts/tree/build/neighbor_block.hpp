@@ -48,7 +48,7 @@ struct NeighborBlock {
 
     /// Limited, so that bounds of what is there are finite; they remain lower bounds.
     static float float_weight(double weight, double per_weight) {
-        return static_cast<float>(std::min(weight * per_weight, 1e30));
+        return static_cast<float>((std::min)(weight * per_weight, 1e30));
     }
 };
 
@@ -104,9 +104,9 @@ inline void enclose(const NeighborBlock<true>& child, NeighborBlock<true>& paren
         const float sine = 0.5f * std::sqrt(distance2);
         const float own = child.sin[k] < 0 ? std::atan2(-child.sin[k], child.cos[k]) : 0.0f;
         // Near a quarter turn the arc sine magnifies rounding errors.
-        around = std::max(around, sine < 0.95f ? std::asin(sine) + own : quarter_turn);
+        around = (std::max)(around, sine < 0.95f ? std::asin(sine) + own : quarter_turn);
     }
-    around = std::min(around, quarter_turn);
+    around = (std::min)(around, quarter_turn);
     parent.sin[j] = -std::sin(around);
     parent.cos[j] = std::cos(around);
 }
@@ -129,7 +129,7 @@ struct Probe {
             axis = unit_axis(c);
             sin = static_cast<float>(c.half.sin);
             cos = static_cast<float>(c.half.cos);
-            spread = std::max(static_cast<float>(one_minus_cos(c.cone)), spread_margin);
+            spread = (std::max)(static_cast<float>(one_minus_cos(c.cone)), spread_margin);
             direction2 = static_cast<float>(direction * direction);
         }
     }

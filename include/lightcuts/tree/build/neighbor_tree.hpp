@@ -88,7 +88,7 @@ private:
 
         /// Allows for the bounds' relative rounding errors, and for denormals. Finite: it excludes empty lanes.
         void set_threshold() {
-            threshold = static_cast<float>(std::min(best.rank.size * tree.per_weight_ * (1 + 4e-6) + 1e-36, 1e38));
+            threshold = static_cast<float>((std::min)(best.rank.size * tree.per_weight_ * (1 + 4e-6) + 1e-36, 1e38));
         }
 
         /// Visits a block's lanes except those in the set `skip`, the most promising first.

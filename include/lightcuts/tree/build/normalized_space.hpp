@@ -31,10 +31,10 @@ struct NormalizedSpace {
         for (const Item& item : items) {
             const std::array<float, 3> p{item.position.x, item.position.y, item.position.z};
             for (std::size_t a = 0; a < 3; ++a) {
-                lo[a] = std::min(lo[a], p[a]);
-                hi[a] = std::max(hi[a], p[a]);
+                lo[a] = (std::min)(lo[a], p[a]);
+                hi[a] = (std::max)(hi[a], p[a]);
             }
-            weight = std::max(weight, item.weight);
+            weight = (std::max)(weight, item.weight);
         }
         NormalizedSpace space;
         double diagonal2 = 0;
@@ -62,7 +62,7 @@ struct NormalizedSpace {
     /// What a unit of direction counts for in the space: `length`, in world units, or `standard`, in the space's, where
     /// that is unset. Limited, so that products stay finite.
     float direction_share(const std::optional<double>& length, float standard) const {
-        return length ? static_cast<float>(std::min(*length * per_length, 1e18)) : standard;
+        return length ? static_cast<float>((std::min)(*length * per_length, 1e18)) : standard;
     }
 };
 

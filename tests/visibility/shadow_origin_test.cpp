@@ -112,7 +112,7 @@ TEST(Leaf, UnderLightsOnBothSidesIsTheExhaustiveSumAtRatioZero) {
 struct OwnPlane {
     template <class R, Light L>
     bool operator()(const R& receiver, const L& light) const {
-        return sees(receiver, place_of(light));
+        return sees(receiver, position_or_direction(light));
     }
     template <class R>
     float upper_bound(const R& receiver, const Box& box) const {

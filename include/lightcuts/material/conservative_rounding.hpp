@@ -41,37 +41,37 @@ void blacken_below(const glm::vec3& n, const OffsetBlock& offsets, LaneSpectra<S
     LaneSupport s;
     support(n, offsets, s);
     for (int i = 0; i < lane_count; ++i) {
-        if (s.value[i] <= -s.noise[i]) bounds[static_cast<std::size_t>(i)] = S{};
+        if (s.value[i] <= -s.noise[i]) bounds[static_cast<std::size_t>(i)] = black<S>();
     }
 }
 
 /// The largest cosine after the direction has turned by `direction_error`. pre: 0 <= c <= 1
-inline double turned(double c) {
+inline double perturbed_cosine(double c) {
     const double raised = c + direction_error * std::sqrt((1.0 - c) * (1.0 + c));
     return raised < 1.0 ? raised : 1.0;
 }
 
 /// A bound's last step: x with room for the rounding of evaluate(), of the bound's own arithmetic and of what follows
 /// in float; at least the smallest normal float. pre: x >= 0
-inline float padded(double x) {
-    constexpr float smallest = std::numeric_limits<float>::min();
+inline float with_rounding_margin(double x) {
+    constexpr float smallest = (std::numeric_limits<float>::min)();
     const auto raised = static_cast<float>(x * (1.0 + 5e-5));
     return raised > smallest ? raised : smallest;
 }
 
 /// The product of two numbers >= 0 that is zero only if `a` is: neither overflow nor underflow spoils a bound.
-constexpr float times(float a, float positive) {
-    constexpr float smallest = std::numeric_limits<float>::min();
+constexpr float positive_product(float a, float positive) {
+    constexpr float smallest = (std::numeric_limits<float>::min)();
     const float product = a * positive;
     const float raised = product > smallest ? product : smallest;
     return a > 0.0f ? raised : 0.0f;
 }
 
-/// s * padded(factor), channel by channel; black channels stay black. pre: factor >= 0
+/// s * with_rounding_margin(factor), channel by channel; black channels stay black. pre: factor >= 0
 template <Spectrum S>
 S scaled_up(const S& s, double factor) {
-    const float k = padded(factor);
-    return make_spectrum<S>([&](int i) { return times(channel(s, i), k); });
+    const float k = with_rounding_margin(factor);
+    return make_spectrum<S>([&](int i) { return positive_product(channel(s, i), k); });
 }
 
 }  // namespace lightcuts::detail

@@ -6,21 +6,21 @@
 namespace lightcuts {
 
 /// A light whose contributions may be clamped, see ClampOptions: one of many samples of what they stand for together,
-/// each of which is mostly noise. The mark is `static constexpr bool clamped = true`, in the type or its
+/// each of which is mostly noise. The mark is `static constexpr bool clampable = true`, in the type or its
 /// `light_traits`. Kinds without it cost nothing and are never clamped.
 template <class L>
-concept ClampedLight = Light<L> &&(
-    requires { requires std::bool_constant<L::clamped>::value; } ||
-    requires { requires std::bool_constant<light_traits<L>::clamped>::value; });
+concept ClampableLight = Light<L> &&(
+    requires { requires std::bool_constant<L::clampable>::value; } ||
+    requires { requires std::bool_constant<light_traits<L>::clampable>::value; });
 
 /// A light of kind `L` with that mark: a kind of its own, with a tree of its own.
 template <class L>
-struct Clamped : L {
-    static constexpr bool clamped = true;
+struct Clampable : L {
+    static constexpr bool clampable = true;
 };
 
 /// A virtual point light: light reflected by a small piece of a diffuse surface.
 template <Spectrum S = glm::vec3>
-using VirtualLight = Clamped<OrientedPointLight<S>>;
+using VirtualPointLight = Clampable<OrientedPointLight<S>>;
 
 }  // namespace lightcuts

@@ -28,9 +28,9 @@ constexpr Receiver<M> from_behind(const Receiver<M>& receiver) {
 /// Calls `ask(receiver)` with the receiver whose shadow rays start on the side where `light` is: the receiver itself,
 /// and a copy if it is two-sided and the light behind it. So oracles need not know of either.
 template <class M, Light L, class F>
-constexpr decltype(auto) on_lit_side(const Receiver<M>& receiver, [[maybe_unused]] const L& light, F&& ask) {
+constexpr decltype(auto) with_shadow_origin(const Receiver<M>& receiver, [[maybe_unused]] const L& light, F&& ask) {
     if constexpr (Receiver<M>::two_sided) {
-        if (receiver.material.is_behind(towards<L>(receiver.position, place_of(light)))) {
+        if (receiver.material.is_behind(towards<L>(receiver.position, position_or_direction(light)))) {
             return ask(from_behind(receiver));
         }
     }
