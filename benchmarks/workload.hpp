@@ -61,7 +61,7 @@ private:
 };
 
 /// Receivers that advance in lock-step, as in the renderer.
-inline constexpr std::size_t group_size = 64;
+inline constexpr std::size_t group_size = 16;
 
 /// Calls `f(group)` for consecutive groups of receivers.
 template <class F>

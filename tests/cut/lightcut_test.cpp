@@ -1,7 +1,10 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <ranges>
+#include <span>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -80,6 +83,55 @@ TEST(Shade, EvaluatesAMaterialOnceALight) {
     exhaustive(tree, receiver);
     EXPECT_EQ(calls, 2u);
 }
+
+// Whatever holds lights, receivers and results side by side.
+TEST(Shade, TakesAnyContiguousRanges) {
+    Room<V> room(5);
+    const auto vector = room.omni(300);
+    std::array<OmniLight<>, 300> array;
+    std::copy(vector.begin(), vector.end(), array.begin());
+    OmniLight<> plain[300];
+    std::copy(vector.begin(), vector.end(), plain);
+    const std::span<const OmniLight<>> span(vector);
+    const LightTree a(vector), b(array), c(plain), d(span);
+    auto receivers = room.glossy_receivers(3);
+    using R = std::ranges::range_value_t<decltype(receivers)>;
+    const LightcutOptions options{.few_lights = 0};
+    std::vector<CutResult<V>> expected;
+    scratch_of<LightTree<OmniLight<>>> scratch;
+    shade(a, receivers, AlwaysVisible{}, expected, scratch, options);
+    ASSERT_EQ(expected.size(), receivers.size());
+    const auto expect_same_radiance = [&](const auto& results) {
+        for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_EQ(results[i].radiance, expected[i].radiance);
+    };
+    const std::array<R, 3> some{receivers[0], receivers[1], receivers[2]};
+    std::array<CutResult<V>, 3> results;
+    shade(b, some, AlwaysVisible{}, results, scratch, options);
+    expect_same_radiance(results);
+    std::vector<CutResult<V>> more(5);
+    shade(c, std::span(receivers), AlwaysVisible{}, std::span(more), scratch, options);
+    expect_same_radiance(more);
+    for (std::size_t i = 0; i < receivers.size(); ++i) {
+        EXPECT_EQ(shade(d, receivers[i], AlwaysVisible{}, scratch, options).radiance, expected[i].radiance);
+    }
+}
+
+#ifndef NDEBUG
+/// Says that it is a Lambert's lobe, and forgets the cosine.
+struct WithoutCosine : Lambert<V> {
+    V evaluate(const glm::vec3&) const { return albedo * 0.31830989f; }
+    void evaluate_many(const LaneVectors&, int, LaneSpectra<V>&) const = delete;
+};
+
+TEST(ShadeDeathTest, NoticesABoundBelowWhatTheMaterialReturns) {
+    std::vector<OmniLight<>> lights;
+    for (int i = 0; i < 64; ++i) lights.push_back({{3.0f + 0.1f * static_cast<float>(i), 0.0f, 0.1f}, V(1.0f), {}});
+    const LightTree tree(lights);
+    const WithoutCosine material{{{0.0f, 0.0f, 1.0f}, V(0.5f)}};
+    const Receiver receiver(V(0.0f), material);
+    EXPECT_DEATH(shade(tree, receiver, AlwaysVisible{}, {.few_lights = 0}), "a bound is below");
+}
+#endif
 
 TEST(Shade, OfSeveralTreesIsTheSumOverThem) {
     Room<V> room(1);

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <ranges>
 #include <span>
 #include <type_traits>
 #include <utility>
@@ -257,9 +259,22 @@ void shade_in_lock_step(const Forest& forest, std::span<const Receiver<M>> recei
 
 }  // namespace detail
 
+namespace detail {
+
+template <class R>
+inline constexpr bool is_receiver = false;
+template <class M>
+inline constexpr bool is_receiver<Receiver<M>> = true;
+
+/// Contiguous ranges of receivers.
+template <class Rs>
+concept Receivers = std::ranges::contiguous_range<Rs> && is_receiver<std::ranges::range_value_t<Rs>>;
+
+}  // namespace detail
+
 /// Shades receivers by lightcuts [Lightcuts 2005, section 3]: `results[i]` is the light that leaves `receivers[i]`.
-/// With a batched oracle all receivers advance in lock-step, so that their shadow rays form long streams; some 64 is
-/// enough. The result of a receiver does not depend on the others.
+/// With a batched oracle all receivers advance in lock-step, so that their shadow rays form long streams; some 16 at
+/// a time are enough, and stay in the cache. The result of a receiver does not depend on the others.
 /// threads: safe with one scratch each. cost: about one shadow ray and three bounds for two clusters on the cut.
 /// pre: results.size() >= receivers.size().
 template <TreeOrForest Lights, class M, class Oracle, class Policy = TwoStageBounds>
@@ -275,13 +290,30 @@ void shade(const Lights& lights, std::span<const Receiver<M>> receivers, const O
     }
 }
 
-/// The same for vectors.
+/// Shades the receivers of a vector, a span, an array or another contiguous range; `results` is resized if it is a
+/// vector. Else as with spans.
+template <TreeOrForest Lights, detail::Receivers Rs, class Oracle, class Results, class Policy = TwoStageBounds>
+    requires(std::ranges::contiguous_range<Results>&&
+                 std::same_as<std::ranges::range_value_t<Results>, CutResult<forest_spectrum<Lights>>>)
+void shade(const Lights& lights, const Rs& receivers, const Oracle& oracle, Results&& results,
+           scratch_of<Lights>& scratch, const LightcutOptions& options = {}, const Policy& policy = {}) {
+    using R = std::ranges::range_value_t<Rs>;
+    using Result = CutResult<forest_spectrum<Lights>>;
+    const std::size_t count = std::ranges::size(receivers);
+    if constexpr (requires { results.resize(count); }) results.resize(count);
+    shade(lights, std::span<const R>(std::ranges::data(receivers), count), oracle,
+          std::span<Result>(std::ranges::data(results), std::ranges::size(results)), scratch, options, policy);
+}
+
+/// Shades one receiver, by a scratch: no allocation once it is warm.
 template <TreeOrForest Lights, class M, class Oracle, class Policy = TwoStageBounds>
-void shade(const Lights& lights, const std::vector<Receiver<M>>& receivers, const Oracle& oracle,
-           std::vector<CutResult<forest_spectrum<Lights>>>& results, scratch_of<Lights>& scratch,
-           const LightcutOptions& options = {}, const Policy& policy = {}) {
-    results.resize(receivers.size());
-    shade(lights, std::span<const Receiver<M>>(receivers), oracle, std::span(results), scratch, options, policy);
+CutResult<forest_spectrum<Lights>> shade(const Lights& lights, const Receiver<M>& receiver, const Oracle& oracle,
+                                         scratch_of<Lights>& scratch, const LightcutOptions& options = {},
+                                         const Policy& policy = {}) {
+    CutResult<forest_spectrum<Lights>> result;
+    shade(lights, std::span<const Receiver<M>>(&receiver, 1), oracle,
+          std::span<CutResult<forest_spectrum<Lights>>>(&result, 1), scratch, options, policy);
+    return result;
 }
 
 /// Shades one receiver.

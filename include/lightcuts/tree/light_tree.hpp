@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <concepts>
 #include <cstdint>
+#include <ranges>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -36,10 +38,30 @@ struct BinnedBuilder {
     }
 };
 
+namespace detail {
+
+/// Stands for the lights of a range from which no tree can be made.
+template <class R>
+struct ScatteredLights {};
+template <class L>
+inline constexpr bool are_scattered = false;
+template <class R>
+inline constexpr bool are_scattered<ScatteredLights<R>> = true;
+
+/// Ranges of `L` whose elements stand side by side.
+template <class R, class L>
+concept LightsOf = std::ranges::contiguous_range<R> && std::ranges::sized_range<R> &&
+    std::same_as<std::ranges::range_value_t<R>, L>;
+
+}  // namespace detail
+
 /// Stands for the light tree of a type that is no light; does not compile, and says what the type lacks.
 template <class L>
 class LightTree {
-    static_assert(detail::HasIntensity<L>,
+    static_assert(!detail::are_scattered<L>,
+                  "the lights of a tree stand side by side: std::vector, std::array, std::span or an array, not "
+                  "std::deque or std::list");
+    static_assert(detail::are_scattered<L> || detail::HasIntensity<L>,
                   "a light needs intensity(): a float, a glm::vec3 or another Spectrum; a member, or a function of "
                   "light_traits");
     static_assert(!detail::HasIntensity<L> || Light<L>,
@@ -107,14 +129,19 @@ public:
         update();
     }
 
-    template <class Builder = BinnedBuilder, Executor E = Sequential>
-    explicit LightTree(const std::vector<L>& lights, const LightTreeOptions& options = {}, const Builder& builder = {},
+    /// Builds the tree of a std::vector, a std::array, an array or another contiguous range that outlives the tree.
+    template <detail::LightsOf<L> R, class Builder = BinnedBuilder, Executor E = Sequential>
+        requires(!std::same_as<std::remove_cvref_t<R>, std::span<const L>> &&
+                 (std::is_lvalue_reference_v<R> || std::ranges::borrowed_range<R>))
+    explicit LightTree(R&& lights, const LightTreeOptions& options = {}, const Builder& builder = {},
                        const E& execute = {})
-        : LightTree(std::span<const L>(lights), options, builder, execute) {}
+        : LightTree(std::span<const L>(std::ranges::data(lights), std::ranges::size(lights)), options, builder,
+                    execute) {}
 
-    /// Temporary lights are refused: the tree would refer to lights that are gone.
-    template <class... Rest>
-    explicit LightTree(std::vector<L>&&, Rest&&...) = delete;
+    /// Deleted: a tree refers to its lights, and these would be gone. Keep them in a variable.
+    template <detail::LightsOf<L> R, class... Rest>
+        requires(!std::is_lvalue_reference_v<R> && !std::ranges::borrowed_range<R>)
+    explicit LightTree(R&&, const Rest&...) = delete;
 
     /// Brings boxes, cones, intensities and representatives up to date after lights moved, turned or dimmed in
     /// place. The topology stays: rebuild when clusters have drifted apart. cost: O(N).
@@ -273,14 +300,13 @@ private:
     std::vector<node_index> start_;
 };
 
-template <class L>
-LightTree(const std::vector<L>&, const LightTreeOptions& = {}) -> LightTree<L>;
-template <class L, class Builder, class... Rest>
-LightTree(const std::vector<L>&, const LightTreeOptions&, const Builder&, const Rest&...) -> LightTree<L>;
-template <class L, std::size_t Extent>
-LightTree(std::span<L, Extent>, const LightTreeOptions& = {}) -> LightTree<std::remove_const_t<L>>;
-template <class L, std::size_t Extent, class Builder, class... Rest>
-LightTree(std::span<L, Extent>, const LightTreeOptions&, const Builder&, const Rest&...)
-    -> LightTree<std::remove_const_t<L>>;
+template <std::ranges::contiguous_range R>
+LightTree(R&&, const LightTreeOptions& = {}) -> LightTree<std::ranges::range_value_t<R>>;
+template <std::ranges::contiguous_range R, class Builder, class... Rest>
+LightTree(R&&, const LightTreeOptions&, const Builder&, const Rest&...) -> LightTree<std::ranges::range_value_t<R>>;
+template <class R, class... Rest>
+    requires(std::ranges::input_range<R> && !std::ranges::contiguous_range<R>)
+LightTree(R&&, const Rest&...)
+->LightTree<detail::ScatteredLights<std::remove_cvref_t<R>>>;
 
 }  // namespace lightcuts
