@@ -24,7 +24,7 @@ struct OffsetBlock {
     bool all_far;
 
     /// Of a box that counts as far, half of the diagonal over the least distance.
-    static constexpr float far_half_diagonal = 0.25f;
+    static constexpr float far_half_diagonal = 0.125f;
 
     /// pre: 0 <= lane < lane_count
     void set(int lane, const glm::vec3& low, const glm::vec3& high) {

@@ -87,7 +87,7 @@ template <class Forest>
 ChannelSums<typename Forest::spectrum> counts_per_radiance(const Forest& forest) {
     constexpr double next_to_nothing = 1e-9;
     constexpr double in_range = 0x1p-100;  // what is a little less would be rounded as denormals are
-    ChannelSums<typename Forest::spectrum> distant{}, near{};
+    ChannelSums<typename Forest::spectrum> distant{}, local{};
     Box box;
     forest.for_each([&](std::uint32_t, const auto& tree) {
         using L = typename std::remove_cvref_t<decltype(tree)>::light_type;
@@ -95,7 +95,7 @@ ChannelSums<typename Forest::spectrum> counts_per_radiance(const Forest& forest)
             if (tree.empty()) return;
             const auto& all = tree.clusters()[tree.topology().root()];
             if constexpr (!DirectionalLight<L>) box = merge(box, all.box);
-            auto& sum = DirectionalLight<L> ? distant : near;
+            auto& sum = DirectionalLight<L> ? distant : local;
             for (std::size_t c = 0; c < sum.size(); ++c) {
                 sum[c] += next_to_nothing * static_cast<double>(channel(all.intensity, static_cast<int>(c)));
             }
@@ -103,8 +103,8 @@ ChannelSums<typename Forest::spectrum> counts_per_radiance(const Forest& forest)
     });
     const double size2 = diagonal2(box);
     ChannelSums<typename Forest::spectrum> counts{};
-    for (std::size_t c = 0; c < near.size(); ++c) {
-        const double whole = distant[c] + (near[c] > 0.0 ? near[c] / size2 : 0.0);
+    for (std::size_t c = 0; c < local.size(); ++c) {
+        const double whole = distant[c] + (local[c] > 0.0 ? local[c] / size2 : 0.0);
         counts[c] = 1.0 / (whole < in_range ? in_range : whole);
     }
     return counts;

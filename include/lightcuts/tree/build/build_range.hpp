@@ -110,7 +110,7 @@ std::size_t partition_items(std::span<Item> items, Predicate&& goes_left) {
         const Item item = items[i];
         items[i] = items[left];
         items[left] = item;
-        left += goes_left(item) ? 1 : 0;
+        left += goes_left(item) ? std::size_t{1} : std::size_t{0};
     }
     return left;
 }

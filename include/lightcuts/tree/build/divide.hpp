@@ -98,9 +98,9 @@ struct DivideScratch {
     };
 
     std::vector<Part> parents;              ///< being split, all of one depth
-    std::vector<Part> large;                ///< still to split
+    std::vector<Part> coarse;               ///< still to split
     std::vector<Split<Dimensions>> halves;  ///< of the parents
-    std::vector<Part> small;                ///< each a task of its own
+    std::vector<Part> fine;                 ///< each a task of its own
 };
 
 /// Builds a tree from the top down in the caller's storage: `splitter` divides a set in two until single items remain.
@@ -122,21 +122,21 @@ void divide_into(std::span<BuildItem<Dimensions>> items, const S& splitter, cons
 
     // Step 1: split level by level down to parts of a fixed size, whatever the number of threads.
     const std::size_t grain = std::max<std::size_t>(items.size() / 128, 4096);
-    scratch.large.clear();
-    scratch.small.clear();
+    scratch.coarse.clear();
+    scratch.fine.clear();
     const auto file = [&](const Part& part) {
         if (!part.range.items.empty())
-            (part.range.items.size() > grain ? scratch.large : scratch.small).push_back(part);
+            (part.range.items.size() > grain ? scratch.coarse : scratch.fine).push_back(part);
     };
     file({{items}});
-    while (!scratch.large.empty()) {
-        scratch.halves.resize(scratch.large.size());
-        execute(scratch.large.size(), [&](std::size_t i) {
-            const Part& part = scratch.large[i];
+    while (!scratch.coarse.empty()) {
+        scratch.halves.resize(scratch.coarse.size());
+        execute(scratch.coarse.size(), [&](std::size_t i) {
+            const Part& part = scratch.coarse[i];
             scratch.halves[i] = divider.split(part.range, part.first_node, part.depth);
         });
-        scratch.parents.swap(scratch.large);
-        scratch.large.clear();
+        scratch.parents.swap(scratch.coarse);
+        scratch.coarse.clear();
         for (std::size_t i = 0; i < scratch.parents.size(); ++i) {
             const Part& parent = scratch.parents[i];
             const Split<Dimensions>& halves = scratch.halves[i];
@@ -145,8 +145,8 @@ void divide_into(std::span<BuildItem<Dimensions>> items, const S& splitter, cons
         }
     }
     // Step 2: each part is a task of its own.
-    execute(scratch.small.size(), [&](std::size_t i) {
-        const Part& part = scratch.small[i];
+    execute(scratch.fine.size(), [&](std::size_t i) {
+        const Part& part = scratch.fine[i];
         divider.build(part.range, part.first_node, part.depth);
         progress(part.range.items.size());
     });
