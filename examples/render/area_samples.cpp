@@ -1,24 +1,11 @@
 #include "area_samples.hpp"
 
 #include <algorithm>
-#include <cmath>
-
-#include <glm/vec2.hpp>
 
 #include "flat_samples.hpp"
 #include "pieces.hpp"
-#include "triangle.hpp"
 
 namespace render {
-namespace {
-
-/// Pieces are this much smaller than a point's share, so that a share is a compact patch.
-constexpr double pieces_per_point = 4.0;
-
-}  // namespace
-
-double triangle_area(const Scene& scene, std::uint32_t t) { return Triangle(scene, t).area(); }
-
 std::vector<AreaSample> spread_by_area(const Scene& scene, std::span<const std::uint32_t> triangles,
                                        std::size_t count) {
     if (count == 0 || triangles.empty()) return {};
@@ -36,9 +23,7 @@ std::vector<AreaSample> spread_by_area(const Scene& scene, std::span<const std::
         const double wanted = total * (static_cast<double>(i) + 0.5) / static_cast<double>(count);
         while (at + 1 < pieces.size() && before + pieces[at].area <= wanted) before += pieces[at++].area;
         const double rest = std::clamp((wanted - before) / pieces[at].area, 0.0, 1.0);
-        constexpr double golden = 0.6180339887498949;
-        const double turn = golden * static_cast<double>(i);
-        samples.push_back(sample_at(scene, pieces[at].triangle, pieces[at].at(rest, turn - std::floor(turn))));
+        samples.push_back(sample_at(scene, pieces[at].triangle, pieces[at].at(rest, golden_fraction(i))));
     }
     return samples;
 }

@@ -18,9 +18,6 @@ struct AreaSample {
     std::uint32_t triangle = 0;
 };
 
-/// Area of triangle `t`.
-double triangle_area(const Scene& scene, std::uint32_t t);
-
 /// `count` points spread evenly over the area of `triangles`. On a flat surface they depend on its outline alone; on
 /// a curved one each has an equal share of the area along a space-filling curve, so that the tessellation matters
 /// little. cost: O((T + count) log(T + count)).

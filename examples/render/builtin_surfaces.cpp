@@ -15,6 +15,7 @@
 #include "builtin.hpp"
 #include "furniture.hpp"
 #include "shapes.hpp"
+#include "triangle.hpp"
 
 namespace render {
 namespace {
@@ -48,8 +49,7 @@ public:
     void add_lights(std::size_t count) {
         std::vector<std::uint32_t> all(scene_.triangles.size());
         std::iota(all.begin(), all.end(), 0u);
-        double area = 0;
-        for (const std::uint32_t t : all) area += triangle_area(scene_, t);
+        const double area = area_of(scene_, all);
 
         // Points that the furniture hides are left out; take so many that `count` remain.
         const auto open_points = [&](std::size_t tries) {

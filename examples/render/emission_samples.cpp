@@ -12,6 +12,7 @@
 #include <lightcuts/core/spectrum.hpp>
 
 #include "surface_colors.hpp"
+#include "triangle.hpp"
 
 namespace render {
 namespace {
@@ -19,8 +20,6 @@ namespace {
 using glm::dvec2;
 using glm::dvec3;
 
-/// Pieces are this much smaller than a point's share, so that a share is a compact patch.
-constexpr double pieces_per_point = 4.0;
 /// Least number of pieces to begin with where the radiance varies, so that points lie where the light is; fewer where
 /// so few lights are wanted that there must be very many emitters.
 constexpr double least_varying_pieces = 4096.0;
@@ -193,9 +192,7 @@ EmissionSampler::Parts EmissionSampler::parts_of(std::span<const std::uint32_t> 
 bool EmissionSampler::is_even(std::span<const std::uint32_t> triangles, const Parts& known) const {
     constexpr double rounding = 1e-6;
     if (known.all.empty()) return false;
-    double area = 0;
-    for (const std::uint32_t t : triangles) area += triangle_area(scene_, t);
-    const dvec3 mean = known.power / area;
+    const dvec3 mean = known.power / area_of(scene_, triangles);
     // What is dark is in no part, so that the mean of all is less than that of each.
     return std::all_of(known.all.begin(), known.all.end(), [&](const Part& part) {
         return part.range == dvec3(0.0) &&
@@ -221,8 +218,7 @@ std::vector<EmissionSample> EmissionSampler::spread(std::span<const std::uint32_
     std::vector<EmissionSample> samples;
     const double points = static_cast<double>(count);
     const auto spread_evenly = [&] {
-        double area = 0;
-        for (const std::uint32_t t : triangles) area += triangle_area(scene_, t);
+        const double area = area_of(scene_, triangles);
         for (const AreaSample& place : spread_by_area(scene_, triangles, count)) {
             const dvec3 radiance(emitted_radiance(scene_, place.triangle, 1.0f / 3.0f, 1.0f / 3.0f, true));
             if (radiance == dvec3(0.0)) continue;
@@ -263,9 +259,7 @@ std::vector<EmissionSample> EmissionSampler::spread(std::span<const std::uint32_
             if (at + 1 == parts.size() || before + here >= end) break;
             before += here;
         }
-        constexpr double golden = 0.6180339887498949;
-        const double turn = golden * static_cast<double>(i);
-        const dvec2 place = lit_place(parts[chosen], along, turn - std::floor(turn), i);
+        const dvec2 place = lit_place(parts[chosen], along, golden_fraction(i), i);
         samples.push_back({sample_at(scene_, parts[chosen].triangle, place), glm::vec3(power)});
     }
     return samples;
@@ -276,7 +270,7 @@ double EmissionSampler::power(std::span<const std::uint32_t> triangles) const {
     if (is_varying(triangles)) return sum_of(parts_of(triangles, least_power_pieces, rough_tolerance).power);
     double power = 0;
     for (const std::uint32_t t : triangles) {
-        power += triangle_area(scene_, t) *
+        power += Triangle(scene_, t).area() *
                  lightcuts::channel_sum(emitted_radiance(scene_, t, 1.0f / 3.0f, 1.0f / 3.0f, true));
     }
     return power;

@@ -82,11 +82,9 @@ std::vector<EmissiveSurface> emissive_surfaces(const Scene& scene) {
         const std::uint32_t root = sets.find(i);
         if (root == i) {
             surface_of[i] = surfaces.size();
-            surfaces.push_back({scene.triangle_material[emissive[i]], {}, 0});
+            surfaces.push_back({scene.triangle_material[emissive[i]], {}});
         }
-        EmissiveSurface& surface = surfaces[surface_of[root]];
-        surface.triangles.push_back(emissive[i]);
-        surface.area += triangle_area(scene, emissive[i]);
+        surfaces[surface_of[root]].triangles.push_back(emissive[i]);
     }
     return surfaces;
 }

@@ -14,7 +14,6 @@ namespace render {
 struct EmissiveSurface {
     std::uint32_t material = 0;
     std::vector<std::uint32_t> triangles;
-    double area = 0;
 };
 
 /// All emissive surfaces, in the order of their first triangles. cost: O(T log T) in the emissive triangles.

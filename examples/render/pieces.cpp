@@ -81,8 +81,7 @@ std::size_t longest_edge(const Triangle& triangle, const Piece& piece) {
 }
 
 std::vector<Piece> cut_into_pieces(const Scene& scene, std::span<const std::uint32_t> triangles, double share) {
-    double total = 0;
-    for (const std::uint32_t t : triangles) total += Triangle(scene, t).area();
+    const double total = area_of(scene, triangles);
     std::vector<Piece> pieces;
     for (const std::uint32_t t : triangles) {
         const Triangle triangle(scene, t);

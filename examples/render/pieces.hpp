@@ -31,6 +31,17 @@ struct Piece {
     }
 };
 
+/// Pieces of a surface are this much smaller than the share of it for which a point stands, so that a share is a
+/// compact patch.
+inline constexpr double pieces_per_point = 4.0;
+
+/// A number in [0, 1) for point `i` of a sequence that is spread evenly wherever it ends: multiples of the golden
+/// ratio.
+inline double golden_fraction(std::size_t i) {
+    const double turn = 0.6180339887498949 * static_cast<double>(i);
+    return turn - std::floor(turn);
+}
+
 /// The two parts of `piece`, cut from the middle of the edge that begins at corner `edge`.
 std::array<Piece, 2> halves(const Piece& piece, std::size_t edge);
 

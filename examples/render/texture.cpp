@@ -23,14 +23,6 @@
 namespace render {
 namespace {
 
-/// The texel that index `i` means in a row or column of `size` texels.
-int wrapped(int i, int size, Texture::Wrap wrap) {
-    if (wrap == Texture::Wrap::clamp) return std::clamp(i, 0, size - 1);
-    const int period = wrap == Texture::Wrap::mirror ? 2 * size : size;
-    const int j = (i % period + period) % period;
-    return j < size ? j : 2 * size - 1 - j;
-}
-
 /// `u` within a short range in which the texture means the same, so that huge coordinates stay representable.
 float reduced(float u, Texture::Wrap wrap) {
     if (wrap == Texture::Wrap::clamp) return std::clamp(u, 0.0f, 1.0f);
@@ -138,13 +130,20 @@ Texture decoded_texture(std::string_view bytes, const std::string& name, bool sr
 
 }  // namespace
 
+int wrapped_texel(int i, int size, Texture::Wrap wrap) {
+    if (wrap == Texture::Wrap::clamp) return std::clamp(i, 0, size - 1);
+    const int period = wrap == Texture::Wrap::mirror ? 2 * size : size;
+    const int j = (i % period + period) % period;
+    return j < size ? j : 2 * size - 1 - j;
+}
+
 glm::vec4 Texture::sample(glm::vec2 uv) const {
     const auto texel = [&](int i, int j) {
         return texels[static_cast<std::size_t>(j) * static_cast<std::size_t>(width) + static_cast<std::size_t>(i)];
     };
     if (filter == Filter::nearest) {
         const auto nearest = [](float u, int size, Wrap wrap) {
-            return wrapped(static_cast<int>(std::floor(reduced(u, wrap) * static_cast<float>(size))), size, wrap);
+            return wrapped_texel(static_cast<int>(std::floor(reduced(u, wrap) * static_cast<float>(size))), size, wrap);
         };
         return texel(nearest(uv.x, width, wrap_u), nearest(uv.y, height, wrap_v));
     }
@@ -152,10 +151,10 @@ glm::vec4 Texture::sample(glm::vec2 uv) const {
     const float y = reduced(uv.y, wrap_v) * static_cast<float>(height) - 0.5f;
     const float x_floor = std::floor(x);
     const float y_floor = std::floor(y);
-    const int x0 = wrapped(static_cast<int>(x_floor), width, wrap_u);
-    const int x1 = wrapped(static_cast<int>(x_floor) + 1, width, wrap_u);
-    const int y0 = wrapped(static_cast<int>(y_floor), height, wrap_v);
-    const int y1 = wrapped(static_cast<int>(y_floor) + 1, height, wrap_v);
+    const int x0 = wrapped_texel(static_cast<int>(x_floor), width, wrap_u);
+    const int x1 = wrapped_texel(static_cast<int>(x_floor) + 1, width, wrap_u);
+    const int y0 = wrapped_texel(static_cast<int>(y_floor), height, wrap_v);
+    const int y1 = wrapped_texel(static_cast<int>(y_floor) + 1, height, wrap_v);
     return glm::mix(glm::mix(texel(x0, y0), texel(x1, y0), x - x_floor),
                     glm::mix(texel(x0, y1), texel(x1, y1), x - x_floor), y - y_floor);
 }
@@ -212,12 +211,6 @@ Texture texture_of_bytes(std::string_view bytes, const std::string& name, bool s
         return texture_of_picture(exr_picture(bytes, name, ExrUse::texture), name, premultiplication);
     }
     return decoded_texture(bytes, name, srgb);
-}
-
-Texture read_texture(const std::filesystem::path& path, bool srgb) {
-    Texture texture = texture_of_bytes(read_file(path), path.string(), srgb);
-    texture.name = path.filename().string();
-    return texture;
 }
 
 }  // namespace render

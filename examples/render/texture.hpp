@@ -27,6 +27,9 @@ struct EncodedImage {
 /// throws: invalid_input naming `name` when the pixels are missing or of an unknown layout.
 Texture make_texture(std::string name, const EncodedImage& image, bool srgb);
 
+/// The texel that index `i` means in a row or column of `size` texels: what is outside wraps.
+int wrapped_texel(int i, int size, Texture::Wrap wrap);
+
 /// What becomes of colours that a picture holds times its alpha, as OpenEXR does. A surface's are multiplied by its
 /// cover when they are seen; emitted radiance is stored as it is seen.
 enum class Premultiplication { undo, keep };
@@ -37,8 +40,5 @@ enum class Premultiplication { undo, keep };
 /// negative or not finite.
 Texture texture_of_bytes(std::string_view bytes, const std::string& name, bool srgb,
                          Premultiplication premultiplication = Premultiplication::undo);
-
-/// `texture_of_bytes` of a file, whose name without folders is the texture's. throws: invalid_input.
-Texture read_texture(const std::filesystem::path& path, bool srgb);
 
 }  // namespace render

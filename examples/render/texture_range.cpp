@@ -7,6 +7,8 @@
 
 #include <glm/common.hpp>
 
+#include "texture.hpp"
+
 namespace render {
 namespace {
 
@@ -26,14 +28,6 @@ void add(TexelRange& range, const glm::vec4& texel) {
 void add(TexelRange& range, const TexelRange& other) {
     range.low = glm::min(range.low, other.low);
     range.high = glm::max(range.high, other.high);
-}
-
-/// The texel that index `i` means in a row or column of `size` texels.
-int wrapped(int i, int size, Texture::Wrap wrap) {
-    if (wrap == Texture::Wrap::clamp) return std::clamp(i, 0, size - 1);
-    const int period = wrap == Texture::Wrap::mirror ? 2 * size : size;
-    const int j = (i % period + period) % period;
-    return j < size ? j : 2 * size - 1 - j;
 }
 
 }  // namespace
@@ -151,9 +145,9 @@ void TextureRange::add_texels(const Interval& columns, const Interval& rows, Tex
 TexelRange TextureRange::in_cell(const Axis& x, const Axis& y) const {
     const Texture& t = *texture_;
     const auto texel = [&](int i, int j) {
-        return glm::dvec4(
-            t.texels[static_cast<std::size_t>(wrapped(j, t.height, t.wrap_v)) * static_cast<std::size_t>(t.width) +
-                     static_cast<std::size_t>(wrapped(i, t.width, t.wrap_u))]);
+        return glm::dvec4(t.texels[static_cast<std::size_t>(wrapped_texel(j, t.height, t.wrap_v)) *
+                                       static_cast<std::size_t>(t.width) +
+                                   static_cast<std::size_t>(wrapped_texel(i, t.width, t.wrap_u))]);
     };
     const glm::dvec4 t00 = texel(x.first, y.first);
     const glm::dvec4 t10 = texel(x.first + 1, y.first);

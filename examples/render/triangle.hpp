@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <span>
 
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
@@ -21,8 +22,11 @@ inline double largest_coordinate(const glm::dvec3& v) {
 struct Triangle {
     glm::dvec3 a, b, c;
 
-    Triangle(const Scene& scene, const glm::uvec3& corners)
-        : a(scene.positions[corners.x]), b(scene.positions[corners.y]), c(scene.positions[corners.z]) {}
+    /// Of positions in floats or doubles.
+    template <class Positions>
+    Triangle(const Positions& positions, const glm::uvec3& corners)
+        : a(positions[corners.x]), b(positions[corners.y]), c(positions[corners.z]) {}
+    Triangle(const Scene& scene, const glm::uvec3& corners) : Triangle(scene.positions, corners) {}
     Triangle(const Scene& scene, std::uint32_t triangle) : Triangle(scene, scene.triangles[triangle]) {}
 
     /// The point of barycentric coordinates (1 - u - v, u, v).
@@ -33,13 +37,21 @@ struct Triangle {
     glm::dvec3 cross() const { return glm::cross(b - a, c - a); }
     double area() const { return 0.5 * glm::length(cross()); }
 
+    /// How far the farthest corner is from `p`, along an axis.
+    double reach(const glm::dvec3& p) const {
+        return std::max({largest_coordinate(a - p), largest_coordinate(b - p), largest_coordinate(c - p)});
+    }
     /// The largest number that a point `p` of the triangle is computed from: its coordinates, and how far the corners
     /// are from it.
-    double scale_at(const glm::dvec3& p) const {
-        return std::max(
-            {largest_coordinate(p), largest_coordinate(a - p), largest_coordinate(b - p), largest_coordinate(c - p)});
-    }
+    double scale_at(const glm::dvec3& p) const { return std::max(largest_coordinate(p), reach(p)); }
 };
+
+/// The area of `triangles` together.
+inline double area_of(const Scene& scene, std::span<const std::uint32_t> triangles) {
+    double area = 0;
+    for (const std::uint32_t t : triangles) area += Triangle(scene, t).area();
+    return area;
+}
 
 /// Distance from their surface at which rays begin, as a share of `Triangle::scale_at`: some thirty steps of a float.
 inline constexpr double ray_offset_share = 4e-6;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <sstream>
 #include <string_view>
@@ -15,6 +16,7 @@
 #include <lightcuts/core/vector.hpp>
 
 #include "reflectance.hpp"
+#include "triangle.hpp"
 
 namespace render {
 namespace {
@@ -31,12 +33,6 @@ std::string text(const glm::vec3& v) { return "(" + text(v.x) + ", " + text(v.y)
 
 bool is_finite_and_not_negative(const glm::vec3& v) {
     return is_finite(v) && v.x >= 0.0f && v.y >= 0.0f && v.z >= 0.0f;
-}
-
-/// Along a triangle's normal, twice its area long.
-glm::dvec3 cross_of(const Scene& scene, glm::uvec3 corner) {
-    const glm::dvec3 a(scene.positions[corner.x]);
-    return glm::cross(glm::dvec3(scene.positions[corner.y]) - a, glm::dvec3(scene.positions[corner.z]) - a);
 }
 
 /// Throws messages that begin with the scene's name.
@@ -198,18 +194,19 @@ struct Checker {
         for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
             const std::uint32_t material = scene.triangle_material[t];
             if (scene.materials[material].emission == glm::vec3(0.0f)) continue;
-            areas[material] += 0.5 * glm::length(cross_of(scene, scene.triangles[t]));
+            areas[material] += Triangle(scene, static_cast<std::uint32_t>(t)).area();
         }
+        std::map<int, glm::vec3> brightest{{no_texture, glm::vec3(1.0f)}};  // of each texture, at least 1
         for (std::size_t i = 0; i < areas.size(); ++i) {
             const Material& m = scene.materials[i];
             if (areas[i] == 0.0) continue;
-            glm::vec3 brightest(1.0f);
-            if (m.emission_texture.is_there()) {
-                for (const glm::vec4& t : scene.textures[static_cast<std::size_t>(m.emission_texture.texture)].texels) {
-                    brightest = glm::max(brightest, glm::vec3(t));
+            const auto [texel, is_new] = brightest.try_emplace(m.emission_texture.texture, glm::vec3(1.0f));
+            if (is_new) {
+                for (const glm::vec4& t : scene.textures[static_cast<std::size_t>(texel->first)].texels) {
+                    texel->second = glm::max(texel->second, glm::vec3(t));
                 }
             }
-            const glm::dvec3 radiance = glm::dvec3(m.emission) * glm::dvec3(brightest);
+            const glm::dvec3 radiance = glm::dvec3(m.emission) * glm::dvec3(texel->second);
             const double power = 2.0 * std::numbers::pi * areas[i] * std::max({radiance.x, radiance.y, radiance.z});
             if (power > static_cast<double>(std::numeric_limits<float>::max())) {
                 fail("material " + std::to_string(i) + " '" + m.name +
@@ -257,7 +254,7 @@ struct Checker {
 };
 
 /// Exactly collinear in doubles: such a triangle has no normal, cannot be hit and emits nothing.
-bool has_area(const Scene& scene, glm::uvec3 corner) { return cross_of(scene, corner) != glm::dvec3(0.0); }
+bool has_area(const Scene& scene, glm::uvec3 corner) { return Triangle(scene, corner).cross() != glm::dvec3(0.0); }
 
 void drop_flat_triangles(Scene& scene) {
     std::size_t kept = 0;

@@ -14,6 +14,7 @@
 #include <render/studio_map.hpp>
 #include <render/surroundings.hpp>
 #include <render/texture.hpp>
+#include <render/triangle.hpp>
 
 #include "programs.hpp"
 
@@ -140,7 +141,7 @@ TEST(Screens, EveryPixelIsALight) {
         const render::Material& material = s.materials[s.triangle_material[t]];
         if (!material.only_seen) continue;
         const glm::uvec3 corner = s.triangles[t];
-        const double area = 2.0 * render::triangle_area(s, t);  // of the screen, which is two triangles
+        const double area = 2.0 * render::Triangle(s, t).area();  // of the screen, which is two triangles
         const glm::vec3 u = s.positions[corner.y] - s.positions[corner.x];
         const glm::vec3 v = s.positions[corner.z] - s.positions[corner.x];
         const glm::vec3 normal = glm::normalize(glm::cross(u, v));

@@ -11,6 +11,7 @@
 #include <render/area_samples.hpp>
 #include <render/emitters.hpp>
 #include <render/shapes.hpp>
+#include <render/triangle.hpp>
 
 #include "refusal.hpp"
 
@@ -62,7 +63,7 @@ TEST(EmissiveSurfaces, AreComponentsOfOneMaterial) {
     const auto surfaces = emissive_surfaces(s);
     ASSERT_EQ(surfaces.size(), 3u);
     EXPECT_EQ(surfaces[0].triangles.size(), 16u);
-    EXPECT_DOUBLE_EQ(surfaces[0].area, 2.0);
+    EXPECT_DOUBLE_EQ(area_of(s, surfaces[0].triangles), 2.0);
     EXPECT_EQ(surfaces[1].triangles.size(), 2u);
     EXPECT_EQ(surfaces[2].material, 1u);
 }

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include <glm/common.hpp>
-#include <glm/geometric.hpp>
 
 #include "triangle.hpp"
 
@@ -27,20 +26,11 @@ constexpr double many = 0.01;
 /// And of any that is so many times the scene's size away.
 constexpr double stray = 1000.0;
 
-struct Corners {
-    glm::dvec3 a, b, c;
+glm::dvec3 center_of(const Triangle& t) { return t.a / 3.0 + t.b / 3.0 + t.c / 3.0; }
 
-    Corners(std::span<const glm::dvec3> positions, const glm::uvec3& t)
-        : a(positions[t.x]), b(positions[t.y]), c(positions[t.z]) {}
-
-    glm::dvec3 center() const { return a / 3.0 + b / 3.0 + c / 3.0; }
-    double area() const { return 0.5 * glm::length(glm::cross(b - a, c - a)); }
-    double extent() const { return largest_coordinate(glm::max(a, glm::max(b, c)) - glm::min(a, glm::min(b, c))); }
-    /// How far the farthest corner is from `p`.
-    double reach(const glm::dvec3& p) const {
-        return std::max({largest_coordinate(a - p), largest_coordinate(b - p), largest_coordinate(c - p)});
-    }
-};
+double extent_of(const Triangle& t) {
+    return largest_coordinate(glm::max(t.a, glm::max(t.b, t.c)) - glm::min(t.a, glm::min(t.b, t.c)));
+}
 
 /// Where most of some triangles are.
 struct Middle {
@@ -67,15 +57,15 @@ constexpr std::size_t draws = 1023;
 
 /// Drawn evenly by area: as each stands for the same area, medians over them are medians of the area. Empty if that is
 /// not positive and finite.
-std::vector<Corners> draw_by_area(std::span<const glm::dvec3> positions, std::span<const glm::uvec3> triangles) {
+std::vector<Triangle> draw_by_area(std::span<const glm::dvec3> positions, std::span<const glm::uvec3> triangles) {
     std::vector<double> areas;
     areas.reserve(triangles.size());
     double total = 0;
     for (const glm::uvec3& t : triangles) {
-        areas.push_back(Corners(positions, t).area());
+        areas.push_back(Triangle(positions, t).area());
         total += areas.back();
     }
-    std::vector<Corners> drawn;
+    std::vector<Triangle> drawn;
     if (!(total > 0.0) || !std::isfinite(total)) return drawn;
     const double step = total / static_cast<double>(draws);
     double before = 0;
@@ -86,18 +76,18 @@ std::vector<Corners> draw_by_area(std::span<const glm::dvec3> positions, std::sp
     return drawn;
 }
 
-std::vector<Corners> draw_by_count(std::span<const glm::dvec3> positions, std::span<const glm::uvec3> triangles) {
+std::vector<Triangle> draw_by_count(std::span<const glm::dvec3> positions, std::span<const glm::uvec3> triangles) {
     const std::size_t stride = 1 + triangles.size() / draws;
-    std::vector<Corners> drawn;
+    std::vector<Triangle> drawn;
     for (std::size_t i = 0; i < triangles.size(); i += stride) drawn.emplace_back(positions, triangles[i]);
     return drawn;
 }
 
-Middle middle_of(const std::vector<Corners>& drawn) {
+Middle middle_of(const std::vector<Triangle>& drawn) {
     Middle middle;
     std::vector<double> values(drawn.size());
     for (int axis = 0; axis < 3; ++axis) {
-        for (std::size_t i = 0; i < drawn.size(); ++i) values[i] = drawn[i].center()[axis];
+        for (std::size_t i = 0; i < drawn.size(); ++i) values[i] = center_of(drawn[i])[axis];
         middle.center[axis] = median(values);
     }
     for (std::size_t i = 0; i < drawn.size(); ++i) values[i] = drawn[i].reach(middle.center);
@@ -106,11 +96,11 @@ Middle middle_of(const std::vector<Corners>& drawn) {
 }
 
 /// The share of the triangles whose shadows are lost about `origin`.
-double loss_about(const glm::dvec3& origin, const std::vector<Corners>& drawn) {
+double loss_about(const glm::dvec3& origin, const std::vector<Triangle>& drawn) {
     double sum = 0;
-    for (const Corners& corners : drawn) {
-        const double extent = corners.extent();
-        if (extent > 0.0) sum += std::min(ray_offset_share * corners.reach(origin) / (lost_share * extent), 1.0);
+    for (const Triangle& triangle : drawn) {
+        const double extent = extent_of(triangle);
+        if (extent > 0.0) sum += std::min(ray_offset_share * triangle.reach(origin) / (lost_share * extent), 1.0);
     }
     return sum / static_cast<double>(drawn.size());
 }
@@ -119,15 +109,15 @@ double loss_about(const glm::dvec3& origin, const std::vector<Corners>& drawn) {
 Middle choose_origin(std::span<const glm::dvec3> positions, std::span<const glm::uvec3> triangles) {
     constexpr double infinite = std::numeric_limits<double>::infinity();
     Middle best{glm::dvec3(0.0), infinite};
-    const std::vector<Corners> by_area = draw_by_area(positions, triangles);
+    const std::vector<Triangle> by_area = draw_by_area(positions, triangles);
     if (by_area.empty()) return best;
-    const std::vector<Corners> by_count = draw_by_count(positions, triangles);
+    const std::vector<Triangle> by_count = draw_by_count(positions, triangles);
     const auto loss = [&](const glm::dvec3& origin) {
         return loss_about(origin, by_area) + loss_about(origin, by_count);
     };
     // Only what gains much is moved.
     double least_loss = 0.5 * loss(best.center);
-    for (const std::vector<Corners>* drawn : {&by_area, &by_count}) {
+    for (const std::vector<Triangle>* drawn : {&by_area, &by_count}) {
         const Middle middle = middle_of(*drawn);
         if (drawn == &by_area) best.size = middle.size;
         if (!middle.is_far()) continue;
@@ -144,9 +134,9 @@ void note_coarse_coordinates(Scene& scene, std::span<const glm::dvec3> positions
     bool is_stray = false;
     double largest_offset = 0.0;
     for (const glm::uvec3& t : scene.triangles) {
-        const Corners corners(positions, t);
-        const double extent = corners.extent();
-        const double reach = corners.reach(scene.origin);
+        const Triangle triangle(positions, t);
+        const double extent = extent_of(triangle);
+        const double reach = triangle.reach(scene.origin);
         const double offset = ray_offset_share * reach;
         if (extent > 0.0 && offset > coarse_share * extent) {
             ++coarse;
@@ -163,10 +153,6 @@ void note_coarse_coordinates(Scene& scene, std::span<const glm::dvec3> positions
 }
 
 }  // namespace
-
-glm::dvec3 world_origin(std::span<const glm::dvec3> positions, std::span<const glm::uvec3> triangles) {
-    return choose_origin(positions, triangles).center;
-}
 
 void set_positions(Scene& scene, std::span<const glm::dvec3> positions) {
     const Middle chosen = choose_origin(positions, scene.triangles);
