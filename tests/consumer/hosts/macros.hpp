@@ -19,6 +19,7 @@
 #include <numbers>
 #include <queue>
 #include <random>
+#include <ranges>
 #include <set>
 #include <span>
 #include <stdexcept>
