@@ -290,9 +290,11 @@ private:
             }
             if (count == 0) continue;
             for (int i = 0; i < count; ++i) clusters[i] = &clusters_[members[i]->node->node];
-            const lightcuts::ClusterBlock block(clusters, count, point_->position);
+            const lightcuts::ClusterBlock block(clusters, count, lightcuts::box_of(point_->position));
+            lightcuts::ConeBlock normals;
+            normals.fill(point_->material.normal, block);
             alignas(32) lightcuts::Lanes bound;
-            lightcuts::detail::lane_power<3>(point_->material.normal, block, bound);
+            lightcuts::detail::max_dots_over_distance<3>(normals.axis, normals.support, block, bound);
             for (int i = 0; i < count; ++i) {
                 Node& node = *members[i]->node;
                 node.bounded = true;

@@ -37,7 +37,7 @@ public:
     }
 
     template <class M, class C>
-    glm::vec3 quick(const M&, const C& cluster, const glm::vec3&) const {
+    glm::vec3 quick(const M&, const C& cluster, const lightcuts::Box&) const {
         glm::vec3 bound(0.0f);
         forest_.for_each([&](std::uint32_t kind, const auto& tree) {
             if constexpr (std::is_same_v<const C*, decltype(tree.clusters().data())>) {
@@ -74,7 +74,8 @@ BoundTightness measure(const Workload& work, const Forest& forest, std::size_t m
         const double ours = cut_size(receiver, lightcuts::TwoStageBounds{});
         row.exact += least / count;
         row.usual += ours / count;
-        row.tight += cut_size(receiver, lightcuts::TwoStageBounds{.doubt = std::numeric_limits<double>::max()}) / count;
+        row.tight += cut_size(receiver, lightcuts::TwoStageBounds{.tight_band = std::numeric_limits<double>::max()}) /
+                     count;
         row.separate += cut_size(receiver, lightcuts::SeparateBounds{}) / count;
         ratios.push_back(ours / least);
     }

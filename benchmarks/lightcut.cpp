@@ -23,15 +23,15 @@ struct CountingBounds : lightcuts::TwoStageBounds {
     mutable std::uint64_t* tight_calls;
 
     template <class M, class C, class S>
-    void quick_many(const M& material, const glm::vec3& point, const C* const* clusters, std::size_t count,
+    void quick_many(const M& material, const C* const* clusters, std::size_t count, const lightcuts::Box& receivers,
                     S* units) const {
         *quick_calls += count;
-        TwoStageBounds::quick_many(material, point, clusters, count, units);
+        TwoStageBounds::quick_many(material, clusters, count, receivers, units);
     }
     template <class M, class C>
-    auto tight(const M& material, const C& cluster, const glm::vec3& point) const {
+    auto tight(const M& material, const C& cluster, const lightcuts::Box& receivers) const {
         ++*tight_calls;
-        return TwoStageBounds::tight(material, cluster, point);
+        return TwoStageBounds::tight(material, cluster, receivers);
     }
 };
 

@@ -198,9 +198,9 @@ struct LeastBatchedBlade : private Pinned {
 /// One stage, one bound: infinity unless the light is alone.
 struct LeastPolicy {
     static constexpr bool two_stages = false;
-    template <class M, Light L>
-    material_spectrum<M> quick(const M&, const LightCluster<L>&, const glm::vec3&) const {
-        return make_spectrum<material_spectrum<M>>([](int) { return std::numeric_limits<float>::infinity(); });
+    template <class B, Light L>
+    spectrum_of<L> quick(const B&, const LightCluster<L>&, const Box&) const {
+        return make_spectrum<spectrum_of<L>>([](int) { return std::numeric_limits<float>::infinity(); });
     }
 };
 

@@ -131,6 +131,30 @@ static_assert(!Material<NoEvaluate> && Material<NoBound> && !BoundedMaterial<NoB
               !BoundedMaterial<BoundOfOtherSpectrum>);
 static_assert(!Material<MutableMaterial>);
 
+// Bounds of many surfaces
+struct LeastLobe {
+    CosineLobe<float, Cone> cosine_lobe() const { return {cone_of({0.0f, 0.0f, 1.0f}), 1.0f}; }
+};
+struct LobeOfOtherSpectrum {
+    CosineLobe<glm::vec3> cosine_lobe() const { return {{0.0f, 0.0f, 1.0f}, glm::vec3(1.0f)}; }
+};
+struct LeastBound {
+    float upper_bound(const OffsetBox&) const { return 1.0f; }
+};
+struct LeastParts {
+    template <class F>
+    void for_each_component(F&& f) const {
+        f(LeastLobe{});
+        f(LeastBound{});
+    }
+};
+static_assert(ReflectionBound<LeastLobe, float> && ReflectionBound<LeastBound, float> &&
+              ReflectionBound<LeastParts, float> && ReflectionBound<LeastMaterial, float>);
+static_assert(!ReflectionBound<LobeOfOtherSpectrum, float> && !ReflectionBound<LeastBound, glm::vec3> &&
+              !ReflectionBound<NoBound, float> && !Material<LeastLobe>);
+static_assert(BoundPolicy<TwoStageBounds, LeastParts, LightCluster<LeastLight>> &&
+              BoundPolicy<SeparateBounds, LeastParts, LightCluster<LeastLight>>);
+
 // Oracles
 using R = Receiver<const LeastMaterial&>;
 struct NoAnswer {

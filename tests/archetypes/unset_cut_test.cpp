@@ -32,7 +32,7 @@ void expect_cuts(const std::vector<L>& lights, const M& material) {
         for (int c = 0; c < 2; ++c) EXPECT_GE(sampled[c], 0.0f);
     };
     check(TwoStageBounds{});
-    check(TwoStageBounds{.doubt = 2.0});
+    check(TwoStageBounds{.tight_band = 2.0});
     check(SeparateBounds{});
 }
 

@@ -36,9 +36,9 @@ LightCluster<L> cluster_over(const V& lo, const V& hi) {
 
 template <class M, Light L>
 void expect_bounds(const M& material, const LightCluster<L>& cluster, float expected, float looseness = 1.001f) {
-    for (const float bound :
-         {TwoStageBounds{}.quick(material, cluster, V(0.0f)).x, TwoStageBounds{}.tight(material, cluster, V(0.0f)).x,
-          SeparateBounds{}.quick(material, cluster, V(0.0f)).x}) {
+    for (const float bound : {TwoStageBounds{}.quick(material, cluster, box_of(V(0.0f))).x,
+                              TwoStageBounds{}.tight(material, cluster, box_of(V(0.0f))).x,
+                              SeparateBounds{}.quick(material, cluster, box_of(V(0.0f))).x}) {
         if (expected == 0.0f || expected == infinity) {
             EXPECT_EQ(bound, expected);
         } else {
@@ -63,9 +63,9 @@ TEST(Bound, OfABoxIsNearlyTheLargestOverItsPoints) {
     const float best = 1.0f / std::sqrt(2.0f);
     const float wall = by_pi * best / std::pow(1.0f + best * best, 1.5f);
     const auto cluster = cluster_over<OmniLight<>>({1.0f, 0.0f, 0.0f}, {1.0f, 0.0f, 2.0f});
-    EXPECT_NEAR(TwoStageBounds{}.tight(upward, cluster, V(0.0f)).x, wall, 0.005f * wall);
-    EXPECT_GE(TwoStageBounds{}.tight(upward, cluster, V(0.0f)).x, wall);
-    EXPECT_GE(TwoStageBounds{}.quick(upward, cluster, V(0.0f)).x, wall);
+    EXPECT_NEAR(TwoStageBounds{}.tight(upward, cluster, box_of(V(0.0f))).x, wall, 0.005f * wall);
+    EXPECT_GE(TwoStageBounds{}.tight(upward, cluster, box_of(V(0.0f))).x, wall);
+    EXPECT_GE(TwoStageBounds{}.quick(upward, cluster, box_of(V(0.0f))).x, wall);
 }
 
 TEST(Bound, IsExactlyZeroBehindTheReceiverBehindTheEmittersAndInTheirPlanes) {
@@ -88,7 +88,7 @@ TEST(Bound, IsInfiniteWhereALightMayTouchTheReceiver) {
     expect_bounds(upward, cluster_over<OrientedPointLight<>>({0.0f, 0.0f, 0.0f}, {1.0f, 1.0f, 1.0f}), infinity);
     const ModifiedPhong<V> glossy({0.0f, 0.0f, 1.0f}, {0.0f, 0.0f, 1.0f}, V(1.0f, 0.0f, 1.0f), 10.0f);
     const V bound = TwoStageBounds{}.quick(glossy, cluster_over<OmniLight<>>({-1.0f, -1.0f, -1.0f}, {1.0f, 1.0f, 1.0f}),
-                                           V(0.0f));
+                                           box_of(V(0.0f)));
     EXPECT_EQ(bound.x, infinity);
     EXPECT_EQ(bound.y, 0.0f) << "black times infinity is black";
 }
@@ -96,8 +96,10 @@ TEST(Bound, IsInfiniteWhereALightMayTouchTheReceiver) {
 TEST(Bound, OfDirectionalLightsDoesNotDependOnTheReceiverPosition) {
     const auto cluster = cluster_over<DistantLight<>>({-0.3f, 0.1f, 0.5f}, {0.2f, 0.6f, 0.9f});
     for (const V& x : {V(0.0f), V(1e20f), V(-3.0f, 0.5f, 0.1f)}) {
-        EXPECT_EQ(TwoStageBounds{}.quick(upward, cluster, x), TwoStageBounds{}.quick(upward, cluster, V(0.0f)));
-        EXPECT_EQ(TwoStageBounds{}.tight(upward, cluster, x), TwoStageBounds{}.tight(upward, cluster, V(0.0f)));
+        EXPECT_EQ(TwoStageBounds{}.quick(upward, cluster, box_of(x)),
+                  TwoStageBounds{}.quick(upward, cluster, box_of(V(0.0f))));
+        EXPECT_EQ(TwoStageBounds{}.tight(upward, cluster, box_of(x)),
+                  TwoStageBounds{}.tight(upward, cluster, box_of(V(0.0f))));
     }
 }
 
@@ -107,10 +109,10 @@ TEST(Bound, FallsWithTheSquaredDistance) {
         const glm::dvec3 a = random.in_box({-1.0, -1.0, 0.2}, {1.0, 1.0, 2.0}),
                          b = random.in_box({-1.0, -1.0, 0.2}, {1.0, 1.0, 2.0});
         const V lo(glm::min(a, b)), hi(glm::max(a, b));
-        const float at_one = TwoStageBounds{}.tight(upward, cluster_over<OmniLight<>>(lo, hi), V(0.0f)).x;
+        const float at_one = TwoStageBounds{}.tight(upward, cluster_over<OmniLight<>>(lo, hi), box_of(V(0.0f))).x;
         for (const float scale : {0x1p-40f, 0x1p40f}) {
             const float scaled =
-                TwoStageBounds{}.tight(upward, cluster_over<OmniLight<>>(lo * scale, hi * scale), V(0.0f)).x;
+                TwoStageBounds{}.tight(upward, cluster_over<OmniLight<>>(lo * scale, hi * scale), box_of(V(0.0f))).x;
             EXPECT_NEAR(scaled * scale * scale, at_one, 1e-5f * at_one);
         }
     }

@@ -1,4 +1,4 @@
-// expect: a bound policy needs quick(material, cluster, point) const, which returns the material's
+// expect: a bound policy needs quick(bound, cluster, receivers) const, which returns the lights'
 #include <vector>
 
 #include <lightcuts/lightcuts.hpp>

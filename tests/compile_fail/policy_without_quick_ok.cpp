@@ -6,7 +6,7 @@
 struct Guess {
     static constexpr bool two_stages = false;
     template <class M, class C>
-    float quick(const M&, const C&, const glm::vec3&) const {
+    float quick(const M&, const C&, const lightcuts::Box&) const {
         return std::numeric_limits<float>::infinity();
     }
 };

@@ -119,9 +119,9 @@ TEST(ExtremeRange, MaxPowerBoundsTheLargestTerm) {
         const glm::dvec3 v = wide_direction(b, draw, range);
         const double tolerance = draw.chance(0.5) ? 1e-3 : std::pow(10.0, -draw.below(17));
         const int iterations = draw.chance(0.5) ? 60 : draw.below(6);
-        const std::array bounds{max_power<1>(v, b, tolerance, iterations).value,
-                                max_power<2>(v, b, tolerance, iterations).value,
-                                max_power<3>(v, b, tolerance, iterations).value};
+        const std::array bounds{max_dot_over_distance<1>(v, b, tolerance, iterations).value,
+                                max_dot_over_distance<2>(v, b, tolerance, iterations).value,
+                                max_dot_over_distance<3>(v, b, tolerance, iterations).value};
         for (int k = 1; k <= 3; ++k) {
             const double bound = bounds[static_cast<std::size_t>(k - 1)];
             finite += std::isfinite(bound);
@@ -147,9 +147,9 @@ TEST(ExtremeRange, MaxPowerIsAttained) {
             loose += static_cast<long double>(bound) > std::max(largest_term(v, b, k, draw), 0.0L) * 1.0011L + noise;
             ++checked;
         };
-        check(max_power<1>(v, b).value, 1);
-        check(max_power<2>(v, b).value, 2);
-        check(max_power<3>(v, b).value, 3);
+        check(max_dot_over_distance<1>(v, b).value, 1);
+        check(max_dot_over_distance<2>(v, b).value, 2);
+        check(max_dot_over_distance<3>(v, b).value, 3);
     }
     EXPECT_GT(checked, 100000);
     EXPECT_LT(loose, checked / 10000);

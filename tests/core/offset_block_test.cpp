@@ -1,5 +1,7 @@
 #include <lightcuts/core/offset_block.hpp>
 
+#include <lightcuts/core/cosine.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -45,7 +47,7 @@ void expect_bounds(const Boxes& boxes, const glm::vec3& v, Random& random) {
     alignas(32) Lanes bound;
     detail::broadcast(v, directions);
     detail::support(v, boxes.block, support);
-    detail::lane_power<K>(directions, support, boxes.block, bound);
+    detail::max_dots_over_distance<K>(directions, support, boxes.block, bound);
     for (std::size_t i = 0; i < boxes.lo.size(); ++i) {
         for (int sample = 0; sample < 24; ++sample) {
             std::array<long double, 3> p{};

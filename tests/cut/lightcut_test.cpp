@@ -171,7 +171,7 @@ struct NoBounds {
     static constexpr bool two_stages = false;
 
     template <class M, Light L>
-    material_spectrum<M> quick(const M&, const LightCluster<L>&, const glm::vec3&) const {
+    material_spectrum<M> quick(const M&, const LightCluster<L>&, const Box&) const {
         ADD_FAILURE() << "a bound was asked for";
         return {};
     }

@@ -102,9 +102,10 @@ void check_cluster(LawOutcome& outcome, const ClusterConfiguration& c, const std
 
     const LightCluster<L> cluster = cluster_of_all(lights);
     const TwoStageBounds two_stages;
-    const std::array<glm::vec3, 3> bounds{two_stages.quick(material, cluster, c.receiver),
-                                          two_stages.tight(material, cluster, c.receiver),
-                                          SeparateBounds{}.quick(material, cluster, c.receiver)};
+    const Box place = box_of(c.receiver);
+    const std::array<glm::vec3, 3> bounds{two_stages.quick(material, cluster, place),
+                                          two_stages.tight(material, cluster, place),
+                                          SeparateBounds{}.quick(material, cluster, place)};
     constexpr std::array<const char*, 3> names{"quick", "tight", "separate"};
     std::array<double, 3> exact{};
     for (std::size_t i = 0; i < lights.size(); ++i) {
@@ -141,7 +142,7 @@ void check_cluster(LawOutcome& outcome, const ClusterConfiguration& c, const std
     std::vector<const LightCluster<L>*> pointers;
     for (const LightCluster<L>& part : parts) pointers.push_back(&part);
     std::vector<glm::vec3> together(parts.size());
-    two_stages.quick_many(material, c.receiver, pointers.data(), pointers.size(), together.data());
+    two_stages.quick_many(material, pointers.data(), pointers.size(), place, together.data());
     for (std::size_t i = 0; i < lights.size(); ++i) check("quick_many", together[i], i, i + 1);
     for (std::size_t i = 1; i < lights.size(); ++i) check("quick_many", together[lights.size() + i - 1], 0, i + 1);
 }

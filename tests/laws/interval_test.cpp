@@ -86,9 +86,9 @@ TEST(Intervals, ProveMaxPowerOnWholeBoxes) {
     Tally tally;
     for_some_boxes(1, 300, [&](const glm::dvec3& v, const OffsetBox& b, configurations::Draw& draw) {
         const int iterations = draw.below(3);
-        const double p1 = lightcuts::max_power<1>(v, b, 1e-3, iterations).value * margin;
-        const double p2 = lightcuts::max_power<2>(v, b, 1e-3, iterations).value * margin;
-        const double p3 = lightcuts::max_power<3>(v, b, 1e-3, iterations).value * margin;
+        const double p1 = lightcuts::max_dot_over_distance<1>(v, b, 1e-3, iterations).value * margin;
+        const double p2 = lightcuts::max_dot_over_distance<2>(v, b, 1e-3, iterations).value * margin;
+        const double p3 = lightcuts::max_dot_over_distance<3>(v, b, 1e-3, iterations).value * margin;
         const double scale = std::sqrt(lightcuts::max_distance2(b));  // near zeros, an absolute margin
         tally.add(prove([&](const Intervals& p) { return dot(v, p) / CGAL::sqrt(norm2(p)); }, p1 + 1e-9, b));
         tally.add(prove([&](const Intervals& p) { return dot(v, p) / norm2(p); }, p2 + 1e-9 / scale, b));
@@ -116,7 +116,7 @@ TEST(Intervals, ProveTheJointBoundOnWholeBoxes) {
 TEST(Intervals, RefuteALimitBelowTheMaximum) {
     Tally tally;
     for_some_boxes(3, 100, [&](const glm::dvec3& v, const OffsetBox& b, configurations::Draw&) {
-        const lightcuts::PowerBound bound = lightcuts::max_power<2>(v, b, 1e-6);
+        const lightcuts::AttainedBound bound = lightcuts::max_dot_over_distance<2>(v, b, 1e-6);
         if (bound.value * std::sqrt(lightcuts::max_distance2(b)) < 1e-3) return;  // rounding noise
         tally.add(prove([&](const Intervals& p) { return dot(v, p) / norm2(p); }, bound.value * 0.9, b));
     });

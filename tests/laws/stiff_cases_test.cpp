@@ -424,8 +424,8 @@ TEST(StiffCase, ExponentZeroInThePlaneOfTheViewer) {
         const ModifiedPhong<V> material{normal, view, V(1.0f), 0.0f};
         const LightCluster<DistantLight<>> cluster = cluster_of(light);
         const float value = material.evaluate(position_or_direction(light)).x;
-        ASSERT_LE(value, TwoStageBounds{}.quick(material, cluster, V(0.0f)).x) << trial;
-        ASSERT_LE(value, TwoStageBounds{}.tight(material, cluster, V(0.0f)).x) << trial;
+        ASSERT_LE(value, TwoStageBounds{}.quick(material, cluster, box_of(V(0.0f))).x) << trial;
+        ASSERT_LE(value, TwoStageBounds{}.tight(material, cluster, box_of(V(0.0f))).x) << trial;
     }
 }
 

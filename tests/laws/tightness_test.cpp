@@ -17,11 +17,11 @@ struct TrueMaximum {
     const LightTree<L>& tree;
 
     template <class M>
-    material_spectrum<M> quick(const M& material, const LightCluster<L>& cluster, const glm::vec3& point) const {
+    material_spectrum<M> quick(const M& material, const LightCluster<L>& cluster, const Box& place) const {
         using S = material_spectrum<M>;
         const ClusterTree& topology = tree.topology();
         const auto node = static_cast<ClusterTree::node_index>(&cluster - tree.clusters().data());
-        const Receiver<const M&> receiver(point, material);
+        const Receiver<const M&> receiver(place.lo, material);
         S largest{};
         for (ClusterTree::node_index n = topology.left_leaf(node); n <= node; ++n) {
             if (!topology.is_leaf(n)) continue;
@@ -74,8 +74,8 @@ TEST(Tightness, OfThePointClusterIsExact) {
         const Lambert<glm::vec3> material{glm::vec3(random.on_sphere()), glm::vec3(0.5f)};
         const LightCluster<OrientedPointLight<>> cluster = cluster_of(light);
         const float exact = unshadowed_terms(Receiver<const Lambert<glm::vec3>&>(glm::vec3(0.0f), material), light).x;
-        const float quick = TwoStageBounds{}.quick(material, cluster, glm::vec3(0.0f)).x;
-        const float tight = TwoStageBounds{}.tight(material, cluster, glm::vec3(0.0f)).x;
+        const float quick = TwoStageBounds{}.quick(material, cluster, box_of(glm::vec3(0.0f))).x;
+        const float tight = TwoStageBounds{}.tight(material, cluster, box_of(glm::vec3(0.0f))).x;
         EXPECT_LE(tight, exact * 1.02f + 1e-5f);
         EXPECT_LE(quick, exact * 1.02f + 1e-5f);
     }

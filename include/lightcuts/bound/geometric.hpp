@@ -3,9 +3,10 @@
 #include <cmath>
 #include <limits>
 
-#include "../core/box.hpp"
 #include "../core/cone.hpp"
+#include "../core/cone_block.hpp"
 #include "../core/cosine.hpp"
+#include "../core/lanes.hpp"
 #include "../core/rounding.hpp"
 #include "../light/incidence.hpp"
 #include "../tree/light_cluster.hpp"
@@ -23,6 +24,21 @@ inline double over_distance2(double x, double d2) {
 
 /// The profile functions of a light are floats; this covers their rounding.
 inline constexpr double float_slack = 1.0 + 2e-6;
+
+/// a x b, lane by lane, where 0 x infinity is a certain zero.
+inline void multiply(const Lanes& a, const Lanes& b, Lanes& product) {
+    for (int i = 0; i < lane_count; ++i) {
+        product[i] = select(smaller(a[i], b[i]) > 0.0f, larger(a[i] * b[i] * 1.000001f, 1e-37f), 0.0f);
+    }
+}
+
+/// Sets bounds[i] to what `bound(cluster, view)` returns for lane i: of functions that only answer one by one.
+template <Light L, class Receivers, class F>
+void fill_lanes(const LightCluster<L>* const* clusters, int count, const Receivers& receivers, const F& bound,
+                Lanes& bounds) {
+    for (int i = 0; i < count; ++i) bounds[i] = round_up(bound(*clusters[i], view_of(*clusters[i], receivers(i))));
+    repeat_last(bounds, count);
+}
 
 }  // namespace detail
 
@@ -87,13 +103,28 @@ double emission_bound(const LightCluster<L>& cluster, const ClusterView& view) {
 template <Light L>
 double geometric_bound(const LightCluster<L>& cluster, const ClusterView& view) {
     if constexpr (cosine_emission<L> && inverse_square<L>) {
-        if (is_single(cluster.cone)) return max_power<3>(-glm::dvec3(cluster.cone.axis), view.box).value;
+        if (is_single(cluster.cone)) return max_dot_over_distance<3>(-glm::dvec3(cluster.cone.axis), view.box).value;
         return detail::over_distance2(emission_bound(cluster, view), view.distance2);
     } else if constexpr (OrientedLight<L>) {
         const double emission = emission_bound(cluster, view);
         return emission > 0.0 ? emission * attenuation_bound(cluster, view) : 0.0;
     } else {
         return attenuation_bound(cluster, view);
+    }
+}
+
+/// `geometric_bound` of every lane.
+template <Light L, class Receivers>
+void geometric_bounds(const LightCluster<L>* const* clusters, int count, const Receivers& receivers,
+                      ClusterBlock<L>& block, Lanes& bounds) {
+    if constexpr (DirectionalLight<L>) {
+        for (int i = 0; i < lane_count; ++i) bounds[i] = 1.0f;
+    } else if constexpr (has_profile<L>) {
+        const auto bound = [](const auto& cluster, const auto& view) { return geometric_bound(cluster, view); };
+        detail::fill_lanes(clusters, count, receivers, bound, bounds);
+    } else {
+        for (int i = 0; i < lane_count; ++i) bounds[i] = block.inverse[i] * block.inverse[i] * 1.000002f;
+        if constexpr (OrientedLight<L>) { detail::multiply(block.cosines_at_lights(), bounds, bounds); }
     }
 }
 

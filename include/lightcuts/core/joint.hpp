@@ -41,8 +41,9 @@ inline double joint_start(const glm::dvec3& n, const glm::dvec3& u, const Offset
 
 /// How far a joint bound is driven. The search stops early once it is nearly exact.
 struct JointEffort {
-    int iterations = 3;       ///< at most; each costs one `max_power`; 1 is often within a few %, 3 within about 1 %
-    double tolerance = 2e-3;  ///< relative, of each `max_power`
+    int iterations =
+        3;  ///< at most; each costs one `max_dot_over_distance`; 1 is often within a few %, 3 within about 1 %
+    double tolerance = 2e-3;  ///< relative, of each `max_dot_over_distance`
     double enough = 0.0;      ///< stop as soon as the bound is at most this: tightening further changes no decision
 };
 
@@ -50,9 +51,8 @@ struct JointEffort {
 /// receiver's normal n and the reversed axis u of all emitters.
 ///
 /// For any lambda > 0, sqrt((n.p)(u.p)) <= v.p with v = (lambda n + u / lambda) / 2, so the maximum is at most
-/// max_power<2>(v)^2, and the best lambda makes it exact (Sion). Exactly zero if all points lie behind n, or behind u;
-/// otherwise infinite if the box holds the origin.
-/// cost: about 70 to 160 ns
+/// max_dot_over_distance<2>(v)^2, and the best lambda makes it exact (Sion). Exactly zero if all points lie behind n,
+/// or behind u; otherwise infinite if the box holds the origin. cost: about 70 to 160 ns
 inline double joint_bound(const glm::dvec3& n, const glm::dvec3& u, const OffsetBox& b,
                           const JointEffort& effort = {}) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -65,7 +65,7 @@ inline double joint_bound(const glm::dvec3& n, const glm::dvec3& u, const Offset
     for (int i = 1;; ++i) {
         const double lambda = std::sqrt(lambda2);
         const glm::dvec3 v = n * (0.5 * lambda) + u * (0.5 / lambda);
-        const PowerBound bound = max_power<2>(v, b, effort.tolerance);
+        const AttainedBound bound = max_dot_over_distance<2>(v, b, effort.tolerance);
         const double squared = bound.value * bound.value * (1.0 + 8.0 * unit_roundoff);
         best = squared < best ? squared : best;
         if (i >= effort.iterations || best <= effort.enough) return best;
@@ -124,90 +124,71 @@ inline NearestDirection nearest_direction(const Cone& cone, const OffsetBox& b) 
 
 }  // namespace detail
 
-/// The same for emitters whose reversed axes fill a cone: bounds (n.p)+ cos(max(0, theta - beta)) / |p|^3, where theta
-/// is the angle from the axis of `reversed_axes` (the lights' cone, `negated`) to p. At most the product of
-/// `clamped_max_cosine(n)`, the widened cosine and 1 / `min_distance2`.
-/// pre: `n` is a unit vector; `reversed_axes` is not empty
-/// cost: about 400 ns for a cone of several directions
-inline double joint_bound(const glm::dvec3& n, const Cone& reversed_axes, const OffsetBox& b,
+namespace detail {
+
+/// What the joint bound needs of one cone of directions over a box.
+struct ConeOverBox {
+    double cosine;  ///< bounds cos(max(0, theta - beta))
+    NearestDirection nearest;
+
+    ConeOverBox(const Cone& cone, const OffsetBox& b, double tolerance) {
+        if (is_single(cone)) {
+            nearest = {glm::dvec3(cone.axis), 0.0, true};
+            cosine = clamped_max_cosine(nearest.direction, b, tolerance);
+        } else {
+            nearest = nearest_direction(cone, b);
+            cosine = widen_cosine(max_cosine(unit_axis(cone), b, tolerance), cone);
+        }
+    }
+};
+
+}  // namespace detail
+
+/// Upper bound of cos(max(0, theta_n - beta_n)) cos(max(0, theta_u - beta_u)) / |p|^2 over the points p of `b`: both
+/// cosines over the squared distance, for receivers whose normals fill one cone and emitters whose reversed axes (their
+/// cone, `negated`) fill another; theta is the angle from a cone's axis to p and beta its half-angle. At most the
+/// product of the widened cosines and 1 / `min_distance2`. A cone of one direction may have an axis that is no unit
+/// vector, which scales its cosine.
+/// pre: no cone is empty
+/// cost: that of single directions for two of them, else about 400 ns
+inline double joint_bound(const Cone& normals, const Cone& reversed_axes, const OffsetBox& b,
                           const JointEffort& effort = {}) {
-    if (is_single(reversed_axes)) return joint_bound(n, glm::dvec3(reversed_axes.axis), b, effort);
-    const glm::dvec3 axis = unit_axis(reversed_axes);
-    const double cos_n = clamped_max_cosine(n, b, effort.tolerance);
-    if (cos_n == 0.0) return 0.0;
-    const double cos_u = widen_cosine(max_cosine(axis, b, effort.tolerance), reversed_axes);
-    if (!(cos_u > 0.0)) return 0.0;
+    if (is_single(normals) && is_single(reversed_axes)) {
+        return joint_bound(glm::dvec3(normals.axis), glm::dvec3(reversed_axes.axis), b, effort);
+    }
+    const detail::ConeOverBox n(normals, b, effort.tolerance);
+    if (!(n.cosine > 0.0)) return 0.0;
+    const detail::ConeOverBox u(reversed_axes, b, effort.tolerance);
+    if (!(u.cosine > 0.0)) return 0.0;
     const double d2 = min_distance2(b);
     if (d2 == 0.0) return std::numeric_limits<double>::infinity();
-    double best = cos_n * cos_u / d2 * (1.0 + 8.0 * unit_roundoff);
+    double best = n.cosine * u.cosine / d2 * (1.0 + 8.0 * unit_roundoff);
     const auto is_enough = [&](double bound) {
         const double raised = bound * (1.0 + 8.0 * unit_roundoff);
         best = raised < best ? raised : best;
         return best <= effort.enough;
     };
     if (best <= effort.enough) return best;
-    const double n3 = max_power<3>(n, b, effort.tolerance).value;
-    if (is_enough(cos_u * n3)) return best;
-    const detail::NearestDirection u = detail::nearest_direction(reversed_axes, b);
-    if (!u.exists) return best;
-    if (is_enough(cos_n * (max_power<3>(u.direction, b, effort.tolerance).value + u.epsilon / d2))) return best;
-    const double rest = u.epsilon * n3;
+    // cos / |p|^2 is at most that about the nearest direction d, plus epsilon / |p|^2.
+    const auto over_distance2 = [&](const detail::NearestDirection& d) {
+        return max_dot_over_distance<3>(d.direction, b, effort.tolerance).value;
+    };
+    double n3 = 0.0, u3 = 0.0;
+    if (n.nearest.exists) {
+        n3 = over_distance2(n.nearest);
+        if (is_enough(u.cosine * (n3 + n.nearest.epsilon / d2))) return best;
+    }
+    if (u.nearest.exists) {
+        u3 = over_distance2(u.nearest);
+        if (is_enough(n.cosine * (u3 + u.nearest.epsilon / d2))) return best;
+    }
+    if (!n.nearest.exists || !u.nearest.exists) return best;
+    const double rest = u.nearest.epsilon * n3 + n.nearest.epsilon * u3 + u.nearest.epsilon * n.nearest.epsilon / d2;
     const double enough = detail::larger(effort.enough * (1.0 - 16.0 * unit_roundoff) - rest, 0.0);
-    is_enough(joint_bound(n, u.direction, b, {effort.iterations, effort.tolerance, enough}) + rest);
+    const double joint = joint_bound(n.nearest.direction, u.nearest.direction, b,
+                                     {effort.iterations, effort.tolerance, enough});
+    is_enough(joint + rest);
     return best;
-}
-
-/// Upper bound of the product of (a_j.p)+^w_j over |p|^K, for N directions with weights: for instance both cosines, a
-/// Phong lobe of exponent n and 1/d^2 have weights 1, 1, n and K = n + 4.
-///
-/// With W the sum of the weights it is at most P_{K/W}(v)^W, v = sum of (w_j / W) mu_j a_j, for any mu_j > 0 whose
-/// weighted product is 1; the best ones, mu_j proportional to 1 / (a_j.q), make it exact.
-/// pre: every w_j > 0; 1 <= W <= K
-/// cost: about 350 ns
-template <std::size_t N>
-inline double joint_power_bound(const glm::dvec3 (&directions)[N], const double (&weights)[N], double K,
-                                const OffsetBox& b, int iterations = 4, double tolerance = 1e-2) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    double W = 0.0;
-    for (std::size_t j = 0; j < N; ++j) {
-        if (is_behind(directions[j], b)) return 0.0;
-        W += weights[j];
-    }
-    const double k = K / W > 1.0 ? K / W : 1.0;
-    glm::dvec3 q = centre(b);
-    double log_mu[N] = {};
-    double best = infinity;
-    double log_best = infinity;
-    for (int i = 0; i < iterations && log_best > -infinity; ++i) {
-        // log mu_j = mean - log(a_j.q); a direction that faces away from q weighs more than before.
-        const double length = std::sqrt(detail::dot(q, q));
-        double log_at_q = -(K - W) * std::log(length);
-        double mean = 0.0;
-        for (std::size_t j = 0; j < N; ++j) {
-            const double cosine = detail::dot(directions[j], q) / length;
-            const double log_cosine = cosine > 0x1p-20 ? std::log(cosine) : -infinity;
-            log_at_q += weights[j] * log_cosine;
-            log_mu[j] = log_cosine > -infinity ? -log_cosine : i == 0 ? 0.0 : log_mu[j] + 2.0;
-            mean += weights[j] * log_mu[j] / W;
-        }
-        if (log_best <= log_at_q + 2.0 * tolerance) break;  // attained
-        glm::dvec3 v(0.0);
-        for (std::size_t j = 0; j < N; ++j) {
-            log_mu[j] -= mean;
-            v += directions[j] * (weights[j] / W * std::exp(log_mu[j]));
-        }
-        const PowerBound bound = max_power(v, b, k, tolerance / W);
-        if (!(bound.value < infinity)) return infinity;
-        const double log_bound = W * std::log(bound.value);
-        if (log_bound < log_best) {
-            log_best = log_bound;
-            // The weighted product of the mu_j is 1 within rounding that grows with W.
-            best = std::pow(bound.value, W) * (1.0 + 64.0 * unit_roundoff * (1.0 + W));
-        }
-        q = bound.at;
-    }
-    if (log_best == -infinity) return 0.0;
-    return best < 0x1p-1022 ? 0x1p-1022 : best;
 }
 
 }  // namespace lightcuts

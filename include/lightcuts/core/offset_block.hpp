@@ -8,14 +8,16 @@
 
 namespace lightcuts {
 
+/// By how much of each coordinate, to either side, boxes of offsets are widened before anything is bounded over them:
+/// the rounding of float differences, and of the directions that materials are given. Zeros stay zeros.
+inline constexpr float offset_margin = 0x1.1p-20f;
+
 /// Several boxes of offsets, coordinate by coordinate in float: the quick bounds of all of them are computed in loops
 /// that compilers turn into vector code. Whatever float cannot do (overflow, denormals) makes a bound infinite.
 /// Fill with `set`, then call `finish`.
 struct OffsetBlock {
     LaneVectors lo;
     LaneVectors hi;
-    alignas(32) Lanes centre[3];
-    alignas(32) Lanes half[3];    ///< of the edges
     alignas(32) Lanes farthest2;  ///< upper bound of the squared distance
     alignas(32) Lanes inverse;    ///< 1 / least distance; infinite if that is zero or out of float's range
     /// Negative for a box that is so far for its size that the largest product over the least distance is nearly a
@@ -25,6 +27,9 @@ struct OffsetBlock {
 
     /// Of a box that counts as far, half of the diagonal over the least distance.
     static constexpr float far_half_diagonal = 0.125f;
+
+    /// The middle of a box along axis `k`.
+    float center(int k, int lane) const { return 0.5f * lo.x[k][lane] + 0.5f * hi.x[k][lane]; }
 
     /// pre: 0 <= lane < lane_count
     void set(int lane, const glm::vec3& low, const glm::vec3& high) {
@@ -39,27 +44,25 @@ struct OffsetBlock {
         detail::repeat_last(hi, count);
         for (int k = 0; k < 3; ++k) {
             for (int i = 0; i < lane_count; ++i) {
-                const float low = lo.x[k][i], high = hi.x[k][i];
-                const float c = 0.5f * low + 0.5f * high, h = 0.5f * high - 0.5f * low;
-                centre[k][i] = c;
-                half[k][i] = h + 1e-6f * (detail::magnitude(c) + h);
-                lo.x[k][i] = low - 1e-6f * detail::magnitude(low);
-                hi.x[k][i] = high + 1e-6f * detail::magnitude(high);
+                lo.x[k][i] -= offset_margin * detail::magnitude(lo.x[k][i]);
+                hi.x[k][i] += offset_margin * detail::magnitude(hi.x[k][i]);
             }
         }
         for (int i = 0; i < lane_count; ++i) {
-            const float x = detail::larger(detail::magnitude(centre[0][i]) - half[0][i], 0.0f);
-            const float y = detail::larger(detail::magnitude(centre[1][i]) - half[1][i], 0.0f);
-            const float z = detail::larger(detail::magnitude(centre[2][i]) - half[2][i], 0.0f);
-            const float d2 = x * x + y * y + z * z;
-            const float far_x = detail::magnitude(centre[0][i]) + half[0][i],
-                        far_y = detail::magnitude(centre[1][i]) + half[1][i],
-                        far_z = detail::magnitude(centre[2][i]) + half[2][i];
-            farthest2[i] = far_x * far_x + far_y * far_y + far_z * far_z;
-            const bool in_range = detail::smaller(d2 - 1e-30f, 1e34f - farthest2[i]) > 0.0f;
+            float d2 = 0.0f, far2 = 0.0f, half2 = 0.0f;
+            for (int k = 0; k < 3; ++k) {
+                const float low = lo.x[k][i], high = hi.x[k][i];
+                const float near_k = detail::larger(detail::larger(low, -high), 0.0f);
+                const float far_k = detail::larger(-low, high);
+                const float half_k = 0.5f * high - 0.5f * low;
+                d2 += near_k * near_k;
+                far2 += far_k * far_k;
+                half2 += half_k * half_k;
+            }
+            farthest2[i] = far2 * 1.000001f;
+            const bool in_range = detail::smaller(d2 - 1e-30f, 1e34f - far2) > 0.0f;
             inverse[i] = detail::select(in_range, detail::inverse_sqrt(d2) * 1.000001f,
                                         std::numeric_limits<float>::infinity());
-            const float half2 = half[0][i] * half[0][i] + half[1][i] * half[1][i] + half[2][i] * half[2][i];
             nearness[i] = half2 - far_half_diagonal * far_half_diagonal * d2;
         }
         float nearest = nearness[0];
@@ -97,107 +100,12 @@ inline void support(const glm::vec3& v, const OffsetBlock& b, LaneSupport& s) {
     for (int i = 0; i < lane_count; ++i) support_lane(x, y, z, b, i, s);
 }
 
-/// The certificate of `max_power` at `step`: lowers `best`, a bound of (v.p)+ / |p|^K, and moves `step` to where the
-/// bound would be exact if the same coordinates stayed clamped.
-template <int K>
-void certify(const LaneVectors& v, const OffsetBlock& b, Lanes& step, Lanes& best) {
-    constexpr float k = K;
-    alignas(32) Lanes next, bound;
-    for (int i = 0; i < lane_count; ++i) {
-        const float vx = v.x[0][i], vy = v.x[1][i], vz = v.x[2][i];
-        const float cx = b.centre[0][i], cy = b.centre[1][i], cz = b.centre[2][i];
-        const float hx = b.half[0][i], hy = b.half[1][i], hz = b.half[2][i];
-        const float inverse = b.inverse[i], s = step[i];
-        const float wx = s * vx, wy = s * vy, wz = s * vz;
-        const float qx = smaller(larger(wx, cx - hx), cx + hx);
-        const float qy = smaller(larger(wy, cy - hy), cy + hy);
-        const float qz = smaller(larger(wz, cz - hz), cz + hz);
-        const float q2 = qx * qx + qy * qy + qz * qz;
-        const float tx = wx * qx, ty = wy * qy, tz = wz * qz;
-        const float error = 2e-6f * (q2 + k * (magnitude(tx) + magnitude(ty) + magnitude(tz)));
-        const float deficit = larger(k * (tx + ty + tz) - q2 + error, 0.0f);
-        float value = 0.0f;
-        if constexpr (K == 1) value = q2 * inverse_sqrt(q2) + deficit * inverse;
-        if constexpr (K == 2) value = 1.0f + deficit * inverse * inverse;
-        if constexpr (K == 3) value = inverse_sqrt(q2) + deficit * inverse * inverse * inverse;
-        bound[i] = smaller(value / (k * s), best[i]);
-
-        const float fx = select(qx == wx, 0.0f, qx), fy = select(qy == wy, 0.0f, qy), fz = select(qz == wz, 0.0f, qz);
-        const float c = fx * fx + fy * fy + fz * fz;
-        const float m = k * (fx * vx + fy * vy + fz * vz);
-        float root = c / m;
-        if constexpr (K > 1) {
-            const float ox = select(qx == wx, vx, 0.0f), oy = select(qy == wy, vy, 0.0f),
-                        oz = select(qz == wz, vz, 0.0f);
-            const float under = m * m + 4.0f * (k - 1.0f) * (ox * ox + oy * oy + oz * oz) * c;
-            root = 2.0f * c / (m + under * inverse_sqrt(under));
-        }
-        next[i] = select(root > 1e-18f, smaller(root, 1e18f), s);
-    }
-    for (int i = 0; i < lane_count; ++i) {
-        step[i] = next[i];
-        best[i] = bound[i];
-    }
-}
-
-/// Two certificates, the first at the centre of the box, for each lane: bounds (v.p)+ / |p|^K. Zero where the support
-/// says that nothing lies in front.
-template <int K>
-void lane_power(const LaneVectors& v, const LaneSupport& s, const OffsetBlock& b, Lanes& bound) {
-    constexpr float k = K;
-    alignas(32) Lanes step, best, result;
-    for (int i = 0; i < lane_count; ++i) {
-        const float cx = b.centre[0][i], cy = b.centre[1][i], cz = b.centre[2][i];
-        const float most = s.value[i] + s.noise[i];
-        const float at_centre = v.x[0][i] * cx + v.x[1][i] * cy + v.x[2][i] * cz;
-        const bool in_front = at_centre > 0.0f;
-        step[i] = select(in_front, cx * cx + cy * cy + cz * cz, b.farthest2[i]) /
-                  (k * select(in_front, at_centre, most));
-        step[i] = smaller(larger(step[i], 1e-18f), 1e18f);  // any will do that overflows nothing
-        const float inverse = b.inverse[i];
-        // From the left, since the powers alone would be denormal far away.
-        best[i] = K == 1 ? most * inverse : K == 2 ? most * inverse * inverse : most * inverse * inverse * inverse;
-    }
-    if (!b.all_far) {
-        alignas(32) Lanes certified;
-        for (int i = 0; i < lane_count; ++i) certified[i] = best[i];
-        certify<K>(v, b, step, certified);
-        certify<K>(v, b, step, certified);
-        for (int i = 0; i < lane_count; ++i) best[i] = select(b.nearness[i] < 0.0f, best[i], certified[i]);
-    }
-    for (int i = 0; i < lane_count; ++i) {
-        constexpr float largest = (std::numeric_limits<float>::max)(),
-                        infinity = std::numeric_limits<float>::infinity();
-        const float inverse = b.inverse[i];
-        const float slack = 1e-6f * (magnitude(v.x[0][i]) + magnitude(v.x[1][i]) + magnitude(v.x[2][i])) *
-                            (K == 1   ? 1.0f
-                             : K == 2 ? inverse
-                                      : inverse * inverse);
-        const float padded = best[i] * 1.00001f + slack;
-        // The comparison that fails for NaN leaves infinity.
-        const float in_front = select(padded < largest, larger(padded, 1e-37f), infinity);
-        result[i] = select(s.value[i] <= -s.noise[i], 0.0f, in_front);
-    }
-    for (int i = 0; i < lane_count; ++i) bound[i] = result[i];
-}
-
 inline void broadcast(const glm::vec3& n, LaneVectors& v) {
     for (int i = 0; i < lane_count; ++i) {
         v.x[0][i] = n.x;
         v.x[1][i] = n.y;
         v.x[2][i] = n.z;
     }
-}
-
-/// Upper bounds of max(0, cos) between unit `v` and the points of each box as a float evaluation may see them; exactly
-/// zero where all lie behind.
-inline void clamped_max_cosines(const glm::vec3& v, const OffsetBlock& b, Lanes& cosines) {
-    LaneVectors directions;
-    LaneSupport s;
-    broadcast(v, directions);
-    support(v, b, s);
-    lane_power<1>(directions, s, b, cosines);
-    for (int i = 0; i < lane_count; ++i) cosines[i] = smaller(cosines[i], 1.0f);
 }
 
 }  // namespace detail

@@ -47,6 +47,11 @@ constexpr float round_up(double x) {
     return x > 0.0 && above < smallest ? smallest : above;
 }
 
+namespace detail {
+constexpr double larger(double x, double y) { return x < y ? y : x; }
+constexpr double smaller(double x, double y) { return x < y ? x : y; }
+}  // namespace detail
+
 /// The largest float not above `x`, except that a negative result is at most minus the smallest normal float.
 constexpr float round_down(double x) { return -round_up(-x); }
 

@@ -53,14 +53,15 @@ private:
                const Priority& priority, double threshold) const {
         using Cluster = typename Tree::cluster;
         using Surface = std::remove_cvref_t<decltype(R::material)>;
-        static_assert(BoundPolicy<Policy, Surface, Cluster>,
-                      "a bound policy needs quick(material, cluster, point) const, which returns the material's "
-                      "spectrum");
+        static_assert(
+            BoundPolicy<Policy, Surface, Cluster>,
+            "a bound policy needs quick(bound, cluster, receivers) const, which returns the lights' spectrum");
         std::array<const Cluster*, lane_count> clusters;
         std::array<S, lane_count> units;
         const std::size_t count = candidates.size();
         for (std::size_t i = 0; i < count; ++i) clusters[i] = &tree.clusters()[frontier[candidates[i]->at].node];
-        quick_bounds(policy_, receiver_.material, receiver_.position, clusters.data(), count, units.data());
+        const Box place = box_of(receiver_.position);
+        quick_bounds(policy_, receiver_.material, clusters.data(), count, place, units.data());
         for (std::size_t i = 0; i < count; ++i) {
             Node& n = frontier[candidates[i]->at];
             LIGHTCUTS_ASSERT(dominates(units[i], n.terms) &&
@@ -71,11 +72,11 @@ private:
         }
         if constexpr (TwoStagePolicy<Policy>) {
             // The tight bound is computed only where it can change the decision.
-            for (std::size_t i = 0; policy_.doubt > 1.0 && i < count; ++i) {
+            for (std::size_t i = 0; policy_.tight_band > 1.0 && i < count; ++i) {
                 Node& n = frontier[candidates[i]->at];
                 double& p = candidates[i]->priority;
-                if (p > threshold && p < policy_.doubt * threshold) {
-                    lower_bound(n, policy_.tight(receiver_.material, *clusters[i], receiver_.position), *clusters[i]);
+                if (p > threshold && p < policy_.tight_band * threshold) {
+                    lower_bound(n, policy_.tight(receiver_.material, *clusters[i], place), *clusters[i]);
                     p = priority(n);
                 }
             }

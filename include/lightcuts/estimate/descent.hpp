@@ -48,7 +48,6 @@ void descend(const Tree& tree, std::uint32_t kind, const Receiver<M>& receiver, 
             } else if (leaf) {
                 scratch.draws.push_back({topology.item(visit.node), kind, visit.weight * (visit.end - visit.begin)});
             } else {
-                if (count > 0 && has_wide_child(tree, visit.node) != has_wide_child(tree, inner[0].node)) break;
                 children[2 * count] = &tree.clusters()[topology.left(visit.node)];
                 children[2 * count + 1] = &tree.clusters()[topology.right(visit.node)];
                 inner[count++] = visit;

@@ -82,7 +82,7 @@ void find_importances(const Policy& policy, const Receiver<M>& receiver,
     using S = spectrum_of<L>;
     LIGHTCUTS_ASSERT(clusters.size() <= lane_count);
     std::array<S, lane_count> units;
-    quick_bounds(policy, receiver.material, receiver.position, clusters.data(), clusters.size(), units.data());
+    quick_bounds(policy, receiver.material, clusters.data(), clusters.size(), box_of(receiver.position), units.data());
     for (std::size_t i = 0; i < clusters.size(); ++i) {
         all[i] = importance_of(*clusters[i], units[i], receiver.position);
     }
@@ -98,18 +98,6 @@ std::array<Importance, 2> child_importances(const Policy& policy, const Receiver
     std::array<Importance, 2> both;
     find_importances(policy, receiver, std::span<const Cluster* const>(children), both.data());
     return both;
-}
-
-/// True if a child of the node has axes of several directions. Blocks are bounded another way if any of their clusters
-/// has: only nodes of which the same is true may share a block, or a chance would depend on who else is in it.
-template <class Tree>
-bool has_wide_child(const Tree& tree, std::uint32_t node) {
-    if constexpr (Tree::cluster::oriented) {
-        return !is_single(tree.clusters()[tree.topology().left(node)].cone) ||
-               !is_single(tree.clusters()[tree.topology().right(node)].cone);
-    } else {
-        return false;
-    }
 }
 
 /// The importances of a forest's roots; zero for a tree without lit lights.

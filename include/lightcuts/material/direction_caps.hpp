@@ -20,12 +20,16 @@ struct DirectionCaps {
 
 inline void caps_of(const OffsetBlock& b, DirectionCaps& caps) {
     for (int i = 0; i < lane_count; ++i) {
-        const float d2 = b.centre[0][i] * b.centre[0][i] + b.centre[1][i] * b.centre[1][i] +
-                         b.centre[2][i] * b.centre[2][i];
+        const float cx = b.center(0, i), cy = b.center(1, i), cz = b.center(2, i);
+        const float d2 = cx * cx + cy * cy + cz * cz;
         const float inverse = inverse_sqrt(d2);
+        const auto half_edge = [&](int k, float c) {
+            const float half = 0.5f * b.hi.x[k][i] - 0.5f * b.lo.x[k][i];
+            return (half + 3e-7f * (half + magnitude(c))) * inverse;
+        };
         // Seen from a unit distance.
-        const float x = b.centre[0][i] * inverse, y = b.centre[1][i] * inverse, z = b.centre[2][i] * inverse;
-        const float hx = b.half[0][i] * inverse, hy = b.half[1][i] * inverse, hz = b.half[2][i] * inverse;
+        const float x = cx * inverse, y = cy * inverse, z = cz * inverse;
+        const float hx = half_edge(0, cx), hy = half_edge(1, cy), hz = half_edge(2, cz);
         // Opposite vertices c + s and c - s have c.s = +-t: the one farther from the axis has t < 0, and there
         // tan^2 = (s^2 - t^2) / (1 - |t|)^2.
         const float tx = magnitude(x) * hx, ty = magnitude(y) * hy, tz = magnitude(z) * hz;
