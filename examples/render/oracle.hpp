@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <concepts>
 #include <cstddef>
@@ -103,18 +102,8 @@ public:
     }
 
     void many(std::span<const lightcuts::VisibilityQuery> queries, std::span<float> answers) const {
-        std::array<lightcuts::VisibilityQuery, 256> some;
-        for (std::size_t begin = 0; begin < queries.size(); begin += some.size()) {
-            const std::size_t count = std::min(some.size(), queries.size() - begin);
-            for (std::size_t i = 0; i < count; ++i) {
-                some[i] = queries[begin + i];
-                if (!some[i].distant) some[i].to = shadow_end(scene_, some[i]);
-            }
-            embree_.many(std::span(some).first(count), answers.subspan(begin, count));
-            for (std::size_t i = 0; i < count; ++i) {
-                if (!some[i].distant && some[i].to == some[i].from) answers[begin + i] = 1.0f;
-            }
-        }
+        embree_.many(queries, answers,
+                     [this](const lightcuts::VisibilityQuery& query) { return shadow_end(scene_, query); });
     }
 
 private:

@@ -35,13 +35,19 @@ public:
     }
 
     void many(std::span<const VisibilityQuery> queries, std::span<float> answers) const {
+        many(queries, answers, [](const VisibilityQuery& q) { return q.to; });
+    }
+    /// The same with rays that end elsewhere: before the surface of an emitter, say. `end_of(query)` is not called for
+    /// distant lights. A ray that ends where it starts meets nothing.
+    template <class EndOf>
+    void many(std::span<const VisibilityQuery> queries, std::span<float> answers, const EndOf& end_of) const {
         constexpr std::size_t stream = 256;
         RTCRay rays[stream];
         for (std::size_t begin = 0; begin < queries.size(); begin += stream) {
             const std::size_t count = (std::min)(stream, queries.size() - begin);
             for (std::size_t i = 0; i < count; ++i) {
                 const VisibilityQuery& q = queries[begin + i];
-                aim(rays[i], q.from, q.to, q.distant);
+                aim(rays[i], q.from, q.distant ? q.to : end_of(q), q.distant);
             }
             occluded(rays, count);
             for (std::size_t i = 0; i < count; ++i) answers[begin + i] = rays[i].tfar < 0.0f ? 0.0f : 1.0f;
@@ -55,7 +61,8 @@ private:
         ray.org_x = from.x;
         ray.org_y = from.y;
         ray.org_z = from.z;
-        ray.tnear = 0.0f;
+        // Of no length: not active.
+        ray.tnear = direction == glm::vec3(0.0f) ? 2.0f : 0.0f;
         ray.dir_x = direction.x;
         ray.dir_y = direction.y;
         ray.dir_z = direction.z;

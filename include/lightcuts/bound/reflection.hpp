@@ -27,7 +27,7 @@ template <Spectrum S>
 
 /// Channel-wise product of two bounds, where 0 x infinity = 0.
 template <Spectrum S>
-constexpr S multiply_bounds(const S& a, const S& b) {
+[[gnu::always_inline]] constexpr S multiply_bounds(const S& a, const S& b) {
     const S product = a * b;
     const float sum = rough_sum(product);
     if (sum == sum) [[likely]]
@@ -43,7 +43,7 @@ template <Spectrum S>
 
 /// spectrum x bound, where 0 x infinity = 0.
 template <Spectrum S>
-constexpr S scale_bound(const S& s, float bound) {
+[[gnu::always_inline]] constexpr S scale_bound(const S& s, float bound) {
     // Covers rounding to float here and in products with it, and axes of nearly unit length.
     constexpr float slack = 1.0f + 1.2e-5f;
     const float factor = bound * slack;

@@ -22,14 +22,21 @@ struct ConeBlock {
 
     /// pre: 0 <= lane < lane_count; `cone` is not empty
     void set(int lane, const Cone& cone) {
-        const bool single = lightcuts::is_single(cone);
-        axis.set(lane, cone.axis);
-        cos[lane] = single ? 2.0f : static_cast<float>(cos_half_angle(cone));
-        sin[lane] = single ? 0.0f : static_cast<float>(sin_half_angle(cone));
-        any_single = any_single || single;
-        any_wide = any_wide || !single;
+        if (lightcuts::is_single(cone)) {
+            set(lane, cone.axis);
+        } else {
+            axis.set(lane, cone.axis);
+            cos[lane] = static_cast<float>(cos_half_angle(cone));
+            sin[lane] = static_cast<float>(sin_half_angle(cone));
+            any_wide = true;
+        }
     }
-    void set(int lane, const glm::vec3& direction) { set(lane, cone_of(direction)); }
+    void set(int lane, const glm::vec3& direction) {
+        axis.set(lane, direction);
+        cos[lane] = 2.0f;
+        sin[lane] = 0.0f;
+        any_single = true;
+    }
 
     /// Repeats the last of `count` cones in the lanes behind it. pre: 0 < count <= lane_count; `boxes` is finished
     void finish(int count, const OffsetBlock& boxes) {

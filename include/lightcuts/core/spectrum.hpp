@@ -137,7 +137,7 @@ constexpr bool is_saturated(const S& s) {
 
 /// `s` with no channel above the largest float, so that a product with zero stays zero.
 template <Spectrum S>
-constexpr S finite(const S& s) {
+[[gnu::always_inline]] constexpr S finite(const S& s) {
     constexpr float largest = (std::numeric_limits<float>::max)();
     if (detail::rough_sum(s) <= largest) return s;
     return make_spectrum<S>([&](int i) {
@@ -163,7 +163,7 @@ template <Spectrum S>
 
 /// Channel-wise a * b for a, b >= 0, with 0 * infinity = 0 and no channel above the largest float.
 template <Spectrum S>
-constexpr S finite_product(const S& a, const S& b) {
+[[gnu::always_inline]] constexpr S finite_product(const S& a, const S& b) {
     const S product = a * b;
     if (detail::rough_sum(product) <= (std::numeric_limits<float>::max)()) [[likely]]
         return product;
