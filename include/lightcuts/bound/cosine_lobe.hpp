@@ -41,8 +41,8 @@ inline double joint_cosines_bound(const Cone& normals, const Cone& axes, const C
 }
 
 /// `joint_cosines_bound` of every lane, of the axes of its two cones alone.
-inline void joint_cosines_bounds(const ConeBlock& normals, const ConeBlock& reversed_axes, const OffsetBlock& b,
-                                 Lanes& bounds) {
+LIGHTCUTS_VECTORIZED inline void joint_cosines_bounds(const ConeBlock& normals, const ConeBlock& reversed_axes,
+                                                      const OffsetBlock& b, Lanes& bounds) {
     const LaneVectors& n = normals.axis;
     const LaneVectors& u = reversed_axes.axis;
     const LaneSupport& sn = normals.support;

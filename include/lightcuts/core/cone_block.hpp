@@ -6,6 +6,7 @@
 #include "dot_over_distance.hpp"
 #include "lanes.hpp"
 #include "offset_block.hpp"
+#include "vectorized.hpp"
 
 namespace lightcuts {
 
@@ -39,7 +40,7 @@ struct ConeBlock {
     }
 
     /// Repeats the last of `count` cones in the lanes behind it. pre: 0 < count <= lane_count; `boxes` is finished
-    void finish(int count, const OffsetBlock& boxes) {
+    LIGHTCUTS_VECTORIZED void finish(int count, const OffsetBlock& boxes) {
         detail::repeat_last(axis, count);
         detail::repeat_last(cos, count);
         detail::repeat_last(sin, count);
@@ -47,7 +48,7 @@ struct ConeBlock {
     }
 
     /// The same in every lane. pre: `boxes` is finished
-    void fill(const glm::vec3& direction, const OffsetBlock& boxes) {
+    LIGHTCUTS_VECTORIZED void fill(const glm::vec3& direction, const OffsetBlock& boxes) {
         detail::broadcast(direction, axis);
         detail::support(direction, boxes, support);
         any_single = true;
@@ -63,7 +64,7 @@ namespace detail {
 /// Upper bounds of max(0, cos(max(0, theta - beta))), where theta is the angle from a cone's axis to any point of the
 /// box beside it and beta the cone's half-angle. For one direction that is the largest numerator over the least
 /// distance, whatever stands in other lanes: who needs a tighter bound forms it together with other factors.
-inline void clamped_max_cosines(const ConeBlock& cones, const OffsetBlock& b, Lanes& cosines) {
+LIGHTCUTS_VECTORIZED inline void clamped_max_cosines(const ConeBlock& cones, const OffsetBlock& b, Lanes& cosines) {
     const LaneSupport& s = cones.support;
     for (int i = 0; i < lane_count; ++i) {
         const float most = larger(s.value[i] + s.noise[i], 0.0f) * b.inverse[i];

@@ -8,6 +8,7 @@
 #include "dot_over_distance.hpp"
 #include "offset_block.hpp"
 #include "rounding.hpp"
+#include "vectorized.hpp"
 
 namespace lightcuts {
 
@@ -64,7 +65,7 @@ namespace detail {
 
 /// Upper bounds of max(0, cos) between unit `v` and the points of each box as a float evaluation may see them; exactly
 /// zero where all lie behind.
-inline void clamped_max_cosines(const glm::vec3& v, const OffsetBlock& b, Lanes& cosines) {
+LIGHTCUTS_VECTORIZED inline void clamped_max_cosines(const glm::vec3& v, const OffsetBlock& b, Lanes& cosines) {
     LaneVectors directions;
     LaneSupport s;
     broadcast(v, directions);

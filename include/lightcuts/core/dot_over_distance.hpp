@@ -10,6 +10,7 @@
 #include "box.hpp"
 #include "offset_block.hpp"
 #include "rounding.hpp"
+#include "vectorized.hpp"
 
 namespace lightcuts {
 
@@ -193,7 +194,7 @@ namespace detail {
 /// The certificate of `max_dot_over_distance` at `step`: lowers `best`, a bound of (v.p)+ / |p|^K, and moves `step` to
 /// where the bound would be exact if the same coordinates stayed clamped.
 template <int K>
-void certify(const LaneVectors& v, const OffsetBlock& b, Lanes& step, Lanes& best) {
+[[gnu::always_inline]] inline void certify(const LaneVectors& v, const OffsetBlock& b, Lanes& step, Lanes& best) {
     constexpr float k = K;
     alignas(32) Lanes next, bound;
     for (int i = 0; i < lane_count; ++i) {
@@ -234,7 +235,8 @@ void certify(const LaneVectors& v, const OffsetBlock& b, Lanes& step, Lanes& bes
 /// Two certificates, the first at the centre of the box, for each lane: bounds (v.p)+ / |p|^K. Zero where the support
 /// says that nothing lies in front.
 template <int K>
-void max_dots_over_distance(const LaneVectors& v, const LaneSupport& s, const OffsetBlock& b, Lanes& bound) {
+LIGHTCUTS_VECTORIZED void max_dots_over_distance(const LaneVectors& v, const LaneSupport& s, const OffsetBlock& b,
+                                                 Lanes& bound) {
     constexpr float k = K;
     alignas(32) Lanes step, best, result;
     for (int i = 0; i < lane_count; ++i) {

@@ -31,17 +31,19 @@ namespace detail {
 
 /// `condition ? a : b` by masks: a conditional would let compilers compute an arm only where it is needed, and then
 /// refuse to vectorise the loop.
-inline float select(bool condition, float a, float b) {
+[[gnu::always_inline]] inline float select(bool condition, float a, float b) {
     const std::uint32_t mask = 0u - static_cast<std::uint32_t>(condition);
     return std::bit_cast<float>((std::bit_cast<std::uint32_t>(a) & mask) | (std::bit_cast<std::uint32_t>(b) & ~mask));
 }
 
-inline float magnitude(float x) { return std::bit_cast<float>(std::bit_cast<std::uint32_t>(x) & 0x7fffffffu); }
-inline float larger(float x, float y) { return select(x > y, x, y); }
-inline float smaller(float x, float y) { return select(x < y, x, y); }
+[[gnu::always_inline]] inline float magnitude(float x) {
+    return std::bit_cast<float>(std::bit_cast<std::uint32_t>(x) & 0x7fffffffu);
+}
+[[gnu::always_inline]] inline float larger(float x, float y) { return select(x > y, x, y); }
+[[gnu::always_inline]] inline float smaller(float x, float y) { return select(x < y, x, y); }
 
 /// 1 / sqrt(x) within 2e-7, in arithmetic that vectorises everywhere (sqrt itself sets errno); finite at 0.
-inline float inverse_sqrt(float x) {
+[[gnu::always_inline]] inline float inverse_sqrt(float x) {
     float y = std::bit_cast<float>(0x5f375a86u - (std::bit_cast<std::uint32_t>(x) >> 1));
     const float half = 0.5f * x;
     y = y * (1.5f - half * y * y);
@@ -59,7 +61,7 @@ inline void repeat_last(LaneVectors& vectors, int count) {
 }
 
 /// sqrt(x) within 4e-7; 0 at 0.
-inline float square_root(float x) { return x * inverse_sqrt(x); }
+[[gnu::always_inline]] inline float square_root(float x) { return x * inverse_sqrt(x); }
 
 }  // namespace detail
 

@@ -5,6 +5,7 @@
 #include <glm/vec3.hpp>
 
 #include "lanes.hpp"
+#include "vectorized.hpp"
 
 namespace lightcuts {
 
@@ -39,7 +40,7 @@ struct OffsetBlock {
 
     /// Repeats the last of `count` boxes in the lanes behind it, and completes all: widened by all rounding up to here,
     /// but corners at zero stay there. pre: count > 0
-    void finish(int count) {
+    LIGHTCUTS_VECTORIZED void finish(int count) {
         detail::repeat_last(lo, count);
         detail::repeat_last(hi, count);
         for (int k = 0; k < 3; ++k) {
@@ -80,7 +81,8 @@ struct LaneSupport {
 };
 
 /// The support of one lane. From the corner farthest along v, so that boxes which touch the plane behind v give zero.
-inline void support_lane(float vx, float vy, float vz, const OffsetBlock& b, int i, LaneSupport& s) {
+[[gnu::always_inline]] inline void support_lane(float vx, float vy, float vz, const OffsetBlock& b, int i,
+                                                LaneSupport& s) {
     const float x = select(vx > 0.0f, b.hi.x[0][i], b.lo.x[0][i]), y = select(vy > 0.0f, b.hi.x[1][i], b.lo.x[1][i]),
                 z = select(vz > 0.0f, b.hi.x[2][i], b.lo.x[2][i]);
     const float px = vx * x, py = vy * y, pz = vz * z;
@@ -90,12 +92,12 @@ inline void support_lane(float vx, float vy, float vz, const OffsetBlock& b, int
     s.noise[i] = 1e-6f * (magnitude(px) + magnitude(py) + magnitude(pz)) + select(any, 1e-37f, 0.0f);
 }
 
-inline void support(const LaneVectors& v, const OffsetBlock& b, LaneSupport& s) {
+[[gnu::always_inline]] inline void support(const LaneVectors& v, const OffsetBlock& b, LaneSupport& s) {
     for (int i = 0; i < lane_count; ++i) support_lane(v.x[0][i], v.x[1][i], v.x[2][i], b, i, s);
 }
 
 /// Of one vector in all lanes.
-inline void support(const glm::vec3& v, const OffsetBlock& b, LaneSupport& s) {
+[[gnu::always_inline]] inline void support(const glm::vec3& v, const OffsetBlock& b, LaneSupport& s) {
     const float x = v.x, y = v.y, z = v.z;
     for (int i = 0; i < lane_count; ++i) support_lane(x, y, z, b, i, s);
 }

@@ -93,7 +93,7 @@ struct IncidenceBlock {
 /// `incidence` of the lights in every lane, in float.
 template <Light L>
     requires(!has_profile<L>)
-void incidences(const LightBlock& lights, const glm::vec3& point, IncidenceBlock& arriving) {
+LIGHTCUTS_VECTORIZED void incidences(const LightBlock& lights, const glm::vec3& point, IncidenceBlock& arriving) {
     using detail::select, detail::smaller, detail::larger;
     if constexpr (DirectionalLight<L>) {
         arriving.to_light = lights.place;

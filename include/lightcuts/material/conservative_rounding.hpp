@@ -37,7 +37,7 @@ inline bool lies_below(const glm::dvec3& n, const OffsetBox& b, double error = d
 /// Blackens the bounds of boxes for which n . p > 0 holds nowhere, directions rounded to float. `n`: a unit vector
 /// within float rounding.
 template <Spectrum S>
-void blacken_below(const glm::vec3& n, const OffsetBlock& offsets, LaneSpectra<S>& bounds) {
+LIGHTCUTS_VECTORIZED void blacken_below(const glm::vec3& n, const OffsetBlock& offsets, LaneSpectra<S>& bounds) {
     LaneSupport s;
     support(n, offsets, s);
     for (int i = 0; i < lane_count; ++i) {

@@ -18,7 +18,7 @@ struct DirectionCaps {
     alignas(32) Lanes narrow;  ///< 1: a cone of under about 88 degrees; 0: the rest means nothing
 };
 
-inline void caps_of(const OffsetBlock& b, DirectionCaps& caps) {
+LIGHTCUTS_VECTORIZED inline void caps_of(const OffsetBlock& b, DirectionCaps& caps) {
     for (int i = 0; i < lane_count; ++i) {
         const float cx = b.center(0, i), cy = b.center(1, i), cz = b.center(2, i);
         const float d2 = cx * cx + cy * cy + cz * cz;
@@ -60,14 +60,14 @@ struct CapAngle {
     float beside;
 };
 
-inline CapAngle angle_from(const DirectionCaps& caps, int i, const glm::vec3& v) {
+[[gnu::always_inline]] inline CapAngle angle_from(const DirectionCaps& caps, int i, const glm::vec3& v) {
     const float cx = caps.centre[0][i], cy = caps.centre[1][i], cz = caps.centre[2][i];
     const float x = v.y * cz - v.z * cy, y = v.z * cx - v.x * cz, z = v.x * cy - v.y * cx;
     return {v.x * cx + v.y * cy + v.z * cz, square_root(x * x + y * y + z * z)};
 }
 
 /// Upper bounds of max(0, cos) between unit `v` and the directions of each cap. 1 for one that is not narrow.
-inline void clamped_max_cosines(const glm::vec3& v, const DirectionCaps& caps, Lanes& cosines) {
+LIGHTCUTS_VECTORIZED inline void clamped_max_cosines(const glm::vec3& v, const DirectionCaps& caps, Lanes& cosines) {
     for (int i = 0; i < lane_count; ++i) {
         const auto [along, beside] = angle_from(caps, i, v);
         const float c = larger(along * caps.cos[i] + beside * caps.sin[i] + 2e-6f, 0.0f);
@@ -77,7 +77,7 @@ inline void clamped_max_cosines(const glm::vec3& v, const DirectionCaps& caps, L
 }
 
 /// Lower bounds of the same. 0 for a cap that is not narrow.
-inline void clamped_min_cosines(const glm::vec3& v, const DirectionCaps& caps, Lanes& cosines) {
+LIGHTCUTS_VECTORIZED inline void clamped_min_cosines(const glm::vec3& v, const DirectionCaps& caps, Lanes& cosines) {
     for (int i = 0; i < lane_count; ++i) {
         const auto [along, beside] = angle_from(caps, i, v);
         const float c = along * caps.cos[i] - beside * caps.sin[i] - 2e-6f;

@@ -56,7 +56,7 @@ public:
         return make_spectrum<S>([&](int i) { return channel(f0_, i) * a + b; });
     }
 
-    void evaluate_many(const LaneVectors& to_lights, int count, LaneSpectra<S>& values) const {
+    LIGHTCUTS_VECTORIZED void evaluate_many(const LaneVectors& to_lights, int count, LaneSpectra<S>& values) const {
         if (!(frame_.cos_view() > 0.0)) return values.fill(black<S>());
         if (alpha2_ < 1e-2) {  // too sharp for float
             for (int i = 0; i < count; ++i) values[static_cast<std::size_t>(i)] = evaluate(to_lights.at(i));
@@ -99,7 +99,7 @@ public:
         return bound(most_cosine(offsets), frame_.range_over<true>(detail::rounded_directions(offsets)));
     }
     /// cost: about 10 ns each
-    void quick_upper_bounds(const OffsetBlock& offsets, LaneSpectra<S>& bounds) const {
+    LIGHTCUTS_VECTORIZED void quick_upper_bounds(const OffsetBlock& offsets, LaneSpectra<S>& bounds) const {
         if (!(frame_.cos_view() > 0.0)) return bounds.fill(black<S>());
         const glm::vec3 normal(frame_.normal());
         detail::DirectionCaps caps;

@@ -146,7 +146,7 @@ public:
 
     /// Over caps of directions: looser, in float.
     /// pre: cos_view() > 0
-    void ranges_over(const DirectionCaps& caps, HalfVectorRanges& ranges) const {
+    LIGHTCUTS_VECTORIZED void ranges_over(const DirectionCaps& caps, HalfVectorRanges& ranges) const {
         const glm::vec3 view(view_), x_axis(x_), y_axis(y_);
         const auto cos_n = static_cast<float>(cos_n_), sin_n = static_cast<float>(sin_n_);
         const auto tan_n = static_cast<float>(smaller(tan_n_, 1e30));

@@ -22,7 +22,7 @@ struct Lambert {
         const float cosine = glm::dot(normal, to_light);
         return cosine > 0.0f ? cosine_lobe().scale * cosine : black<S>();
     }
-    void evaluate_many(const LaneVectors& to_lights, int, LaneSpectra<S>& values) const {
+    LIGHTCUTS_VECTORIZED void evaluate_many(const LaneVectors& to_lights, int, LaneSpectra<S>& values) const {
         const S scale = cosine_lobe().scale;
         for (int i = 0; i < lane_count; ++i) {
             const float cosine = glm::dot(normal, to_lights.at(i));

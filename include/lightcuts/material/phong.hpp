@@ -47,7 +47,7 @@ public:
         return bound(detail::perturbed_cosine(along), detail::perturbed_cosine(clamped_max_cosine(normal_, offsets)));
     }
     /// cost: about 20 ns each
-    void quick_upper_bounds(const OffsetBlock& offsets, LaneSpectra<S>& bounds) const {
+    LIGHTCUTS_VECTORIZED void quick_upper_bounds(const OffsetBlock& offsets, LaneSpectra<S>& bounds) const {
         alignas(32) Lanes along, cosines;
         detail::clamped_max_cosines(glm::vec3(mirror_), offsets, along);
         detail::clamped_max_cosines(glm::vec3(normal_), offsets, cosines);

@@ -71,7 +71,7 @@ public:
         return bound(least, most, frame_.template range_over<false>(detail::rounded_directions(offsets)).sin2);
     }
     /// cost: about 20 ns each
-    void quick_upper_bounds(const OffsetBlock& offsets, LaneSpectra<S>& bounds) const {
+    LIGHTCUTS_VECTORIZED void quick_upper_bounds(const OffsetBlock& offsets, LaneSpectra<S>& bounds) const {
         if (!(frame_.cos_view() > 0.0)) return bounds.fill(black<S>());
         const glm::vec3 normal(frame_.normal());
         detail::DirectionCaps caps;
