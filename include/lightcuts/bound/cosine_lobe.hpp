@@ -8,6 +8,7 @@
 #include "../core/cone_block.hpp"
 #include "../core/cosine.hpp"
 #include "../core/joint.hpp"
+#include "../core/vectorized.hpp"
 #include "geometric.hpp"
 #include "view.hpp"
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "../core/lanes.hpp"
+#include "../core/vectorized.hpp"
 #include "light.hpp"
 
 namespace lightcuts {

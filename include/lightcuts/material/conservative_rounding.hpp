@@ -9,6 +9,7 @@
 #include "../core/box.hpp"
 #include "../core/offset_block.hpp"
 #include "../core/spectrum.hpp"
+#include "../core/vectorized.hpp"
 #include "material.hpp"
 
 namespace lightcuts::detail {

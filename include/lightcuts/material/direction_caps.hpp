@@ -5,6 +5,7 @@
 #include <glm/vec3.hpp>
 
 #include "../core/offset_block.hpp"
+#include "../core/vectorized.hpp"
 
 namespace lightcuts::detail {
 

@@ -10,6 +10,7 @@
 #include "../core/box.hpp"
 #include "../core/cosine.hpp"
 #include "../core/vector.hpp"
+#include "../core/vectorized.hpp"
 #include "direction_caps.hpp"
 
 namespace lightcuts::detail {

@@ -6,6 +6,7 @@
 #include "../core/assertion.hpp"
 #include "../core/cosine.hpp"
 #include "../core/vector.hpp"
+#include "../core/vectorized.hpp"
 #include "conservative_rounding.hpp"
 #include "material.hpp"
 

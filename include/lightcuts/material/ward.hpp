@@ -5,6 +5,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "../core/vectorized.hpp"
 #include "conservative_rounding.hpp"
 #include "direction_caps.hpp"
 #include "half_vector.hpp"
