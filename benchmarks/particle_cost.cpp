@@ -8,13 +8,14 @@
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>
 
-#include "embree.hpp"
-#include "particle_scene.hpp"
+#include "lights/particle_scene.hpp"
+#include "lights/spheres.hpp"
 #include "prepare_scene.hpp"
 #include "prepared_scene.hpp"
+#include "rays/embree.hpp"
 #include "scene_options.hpp"
-#include "spheres.hpp"
 #include "tbb_executor.hpp"
+#include "timing.hpp"
 #include "workload.hpp"
 
 namespace benchmark {

@@ -15,6 +15,7 @@
 #include "recording_oracle.hpp"
 #include "render_loop.hpp"
 #include "shader.hpp"
+#include "timing.hpp"
 #include "view.hpp"
 #include "workload.hpp"
 

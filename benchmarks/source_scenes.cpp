@@ -10,7 +10,7 @@
 #include <lightcuts/source/area.hpp>
 #include <lightcuts/source/environment.hpp>
 
-#include "load_scene.hpp"
+#include "io/load_scene.hpp"
 
 namespace benchmark {
 

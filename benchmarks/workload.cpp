@@ -1,7 +1,5 @@
 #include "workload.hpp"
 
-#include <algorithm>
-
 #include <lightcuts/core/invalid_input.hpp>
 
 #include "prepare_scene.hpp"
@@ -42,11 +40,6 @@ Workload::Workload(const std::string& scene, int width, int height)
         receivers_.push_back(
             {p.position, render::SurfaceMaterial(p), p.ray_origin, static_cast<std::uint32_t>(receivers_.size())});
     }
-}
-
-double median(std::vector<double> values) {
-    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
-    return values[values.size() / 2];
 }
 
 }  // namespace benchmark

@@ -3,7 +3,7 @@
 #include <span>
 
 #include "shader.hpp"
-#include "surface.hpp"
+#include "surfaces/surface.hpp"
 #include "view.hpp"
 
 namespace render {

@@ -11,7 +11,8 @@
 #include <CLI/CLI.hpp>
 #include <glm/geometric.hpp>
 
-#include "ray_tracer.hpp"
+#include "io/escape.hpp"
+#include "rays/ray_tracer.hpp"
 
 namespace render {
 
@@ -185,20 +186,6 @@ std::string listed(const std::vector<std::string>& words) {
     std::string text;
     for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
     return text;
-}
-
-std::string one_line(const std::string& text) {
-    std::string line;
-    for (const char c : text) {
-        const bool space = c == '\n' || c == '\r' || c == '\t' || c == ' ';
-        if (!space) {
-            line += c;
-        } else if (!line.empty() && line.back() != ' ') {
-            line += ' ';
-        }
-    }
-    while (!line.empty() && line.back() == ' ') line.pop_back();
-    return line;
 }
 
 Options parse_options(int argc, const char* const* argv) {

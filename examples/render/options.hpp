@@ -98,7 +98,4 @@ Options parse_options(int argc, const char* const* argv);
 /// The words separated by commas.
 std::string listed(const std::vector<std::string>& words);
 
-/// The words as one line; for messages of others, which may have several.
-std::string one_line(const std::string& text);
-
 }  // namespace render

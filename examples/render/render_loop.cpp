@@ -10,8 +10,8 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include "interrupt.hpp"
+#include "io/resume_file.hpp"
 #include "progress.hpp"
-#include "resume_file.hpp"
 #include "tile_order.hpp"
 
 namespace render {

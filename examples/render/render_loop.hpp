@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <limits>
 
+#include "io/picture.hpp"
 #include "options.hpp"
-#include "picture.hpp"
 #include "shader.hpp"
-#include "surface.hpp"
+#include "surfaces/surface.hpp"
 #include "view.hpp"
 
 namespace render {

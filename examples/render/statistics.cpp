@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "escape.hpp"
+#include "io/escape.hpp"
 #include "memory.hpp"
 
 namespace render {

@@ -2,7 +2,7 @@
 
 #include <map>
 
-#include <render/scene_sheet.hpp>
+#include <render/io/scene_sheet.hpp>
 
 #include "fuzz_target.hpp"
 

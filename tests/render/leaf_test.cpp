@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
-#include <render/indirect.hpp>
-#include <render/picture.hpp>
+#include <render/io/picture.hpp>
+#include <render/lights/indirect.hpp>
 #include <render/shader.hpp>
 
 #include "programs.hpp"

@@ -9,10 +9,10 @@
 #include <glm/common.hpp>
 #include <lightcuts/core/invalid_input.hpp>
 
-#include "escape.hpp"
+#include "io/escape.hpp"
 #include "io/obj_lines.hpp"
-#include "reflectance.hpp"
-#include "text_file.hpp"
+#include "io/text_file.hpp"
+#include "surfaces/reflectance.hpp"
 
 namespace render {
 namespace {

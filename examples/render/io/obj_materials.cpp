@@ -6,12 +6,12 @@
 #include <glm/common.hpp>
 #include <lightcuts/core/invalid_input.hpp>
 
-#include "escape.hpp"
+#include "io/escape.hpp"
 #include "io/obj_lines.hpp"
+#include "io/text_file.hpp"
 #include "luminance.hpp"
-#include "reflectance.hpp"
-#include "text_file.hpp"
-#include "texture.hpp"
+#include "surfaces/reflectance.hpp"
+#include "surfaces/texture.hpp"
 
 namespace render {
 namespace {
