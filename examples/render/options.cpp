@@ -81,13 +81,13 @@ glm::dvec3 vector_of(const std::string& option, const std::string& text) {
 
 void set_sun(Options& options, const std::string& text) {
     const std::vector<std::string> parts = split(text, ',');
-    const auto elevation = parts.size() == 2 ? to_number<float>(parts[0]) : std::nullopt;
-    const auto azimuth = parts.size() == 2 ? to_number<float>(parts[1]) : std::nullopt;
-    if (!elevation || !azimuth || *elevation < 0.0f || *elevation > 90.0f) {
+    const auto elevation = parts.size() == 2 ? to_number<double>(parts[0]) : std::nullopt;
+    const auto azimuth = parts.size() == 2 ? to_number<double>(parts[1]) : std::nullopt;
+    if (!elevation || !azimuth || *elevation < 0.0 || *elevation > 90.0) {
         refuse("--sun-sky", text,
                "ELEVATION,AZIMUTH in degrees; the elevation from 0 to 90, the sky ends at the horizon");
     }
-    options.sun_sky = {*elevation, *azimuth};
+    options.sun_sky = {.elevation = *elevation, .azimuth = *azimuth};
 }
 
 void set_size(Options& options, const std::string& text) {

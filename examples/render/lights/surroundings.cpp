@@ -50,8 +50,7 @@ std::size_t ground_light_count(const lightcuts::SunSky& daylight,
 
 void add_daylight(Scene& scene, const Options& options) {
     const lightcuts::SunSky daylight(
-        {static_cast<double>(options.sun_sky->elevation), static_cast<double>(options.sun_sky->azimuth),
-         static_cast<double>(options.turbidity)},
+        {options.sun_sky->elevation, options.sun_sky->azimuth, static_cast<double>(options.turbidity)},
         glm::vec3(options.ground));
     const auto of_sun = lightcuts::sun_lights(daylight, sun_disc_lights, lightcuts::LowDiscrepancy{options.seed});
     const auto of_sky = lightcuts::sky_lights(daylight, options.sky_lights, sky_rows,
@@ -90,7 +89,7 @@ void add_surroundings(Scene& scene, Options& options) {
     scene.lighting = {};
     if (options.env.empty() && !options.sun_sky) {
         if (own.sun) {
-            options.sun_sky = {static_cast<float>(own.sun->elevation), static_cast<float>(own.sun->azimuth)};
+            options.sun_sky = own.sun;
             if (!options.is_given("--turbidity")) options.turbidity = static_cast<float>(own.sun->turbidity);
         }
     } else {

@@ -79,7 +79,7 @@ TEST(Tableau, IsLitByItsMapAsByAFile) {
 
 TEST(Tableau, GivesWayToWhatTheUserPutsAround) {
     Options options;
-    options.sun_sky = render::SunPosition{20.0f, 10.0f};
+    options.sun_sky = lightcuts::SunPosition{20.0, 10.0};
     const Scene s = lit("tableau", options);
     EXPECT_EQ(s.environment_lights, 0u);
     EXPECT_FALSE(s.background.environment.has_value());
@@ -97,9 +97,8 @@ TEST(Colonnade, StandsInSunAndSkyAndAsksForIndirectLight) {
     EXPECT_EQ(options.indirect, 20'000u);
     EXPECT_EQ(options.clamp.radiance, 0.5f);
     EXPECT_FALSE(options.clamp.is_automatic());
-    const lightcuts::SunSky daylight({static_cast<double>(options.sun_sky->elevation),
-                                      static_cast<double>(options.sun_sky->azimuth),
-                                      static_cast<double>(options.turbidity)});
+    const lightcuts::SunSky daylight(
+        {options.sun_sky->elevation, options.sun_sky->azimuth, static_cast<double>(options.turbidity)});
     ASSERT_TRUE(s.background.daylight.has_value());
     EXPECT_EQ(s.background.daylight->towards_sun(), daylight.towards_sun());
     const std::vector sun(s.directional.begin(), s.directional.begin() + 64);
@@ -124,9 +123,9 @@ TEST(Colonnade, IsLitAsTheUserSays) {
     EXPECT_EQ(options.indirect, 0u);
 
     Options evening;
-    evening.sun_sky = render::SunPosition{5.0f, 270.0f};
+    evening.sun_sky = lightcuts::SunPosition{5.0, 270.0};
     const Scene low = lit("colonnade", evening);
-    EXPECT_EQ(evening.sun_sky->elevation, 5.0f);
+    EXPECT_EQ(evening.sun_sky->elevation, 5.0);
     EXPECT_NEAR(low.background.daylight->towards_sun().y, std::sin(5.0 * std::numbers::pi / 180.0), 1e-6);
     EXPECT_EQ(low.sun_lights, 64u);
     EXPECT_EQ(evening.indirect, 20'000u);
