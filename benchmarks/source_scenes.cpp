@@ -57,7 +57,7 @@ void surround(render::Scene& scene) {
 
 void light_by_map(render::Scene& scene, std::size_t count) {
     scene.directional = lightcuts::environment_lights(scene.background.environment->map(), count,
-                                                      lightcuts::CentredNumbers{1});
+                                                      lightcuts::CenteredSobol{1});
     scene.environment_lights = scene.directional.size();
 }
 

@@ -15,13 +15,13 @@ std::vector<render::SurfacePoint> points_seen(const render::Scene& scene, const 
     constexpr int tile_side = 16;  // the renderer's
     if (scene.cameras.empty()) throw lightcuts::invalid_input(scene.name + ": has no camera; choose another scene");
     const render::View view(scene.cameras.front(), scene.origin, width, height);
-    const render::SurfaceFinder finder(scene, rays, shade);
+    const render::EyePathTracer tracer(scene, rays, shade);
     std::vector<render::SurfacePoint> points;
     for (const render::Tile& tile : render::tiles_of(width, height, tile_side)) {
         for (int y = tile.y0; y < tile.y1; ++y) {
             for (int x = tile.x0; x < tile.x1; ++x) {
                 const auto pixel = static_cast<std::uint32_t>(y * width + x);
-                finder.follow(view.ray(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f), pixel, 0, points);
+                tracer.follow(view.ray(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f), pixel, 0, points);
             }
         }
     }

@@ -23,7 +23,7 @@
 namespace {
 
 using lightcuts::hash_keys;
-using lightcuts::to_unit;
+using lightcuts::uniform01;
 using Light = lightcuts::OmniLight<>;
 using Tree = lightcuts::LightTree<Light>;
 using Material = lightcuts::Lambert<>;
@@ -342,7 +342,7 @@ private:
 std::vector<Light> room_lights(std::size_t count) {
     std::vector<Light> lights(count);
     for (std::size_t i = 0; i < count; ++i) {
-        const auto uniform = [i](int k) { return static_cast<float>(to_unit(hash_keys(1, i, k))); };
+        const auto uniform = [i](int k) { return static_cast<float>(uniform01(hash_keys(1, i, k))); };
         lights[i].position = {10.0f * uniform(0), 2.0f + 2.0f * uniform(1), 10.0f * uniform(2)};
         lights[i].intensity = {uniform(3), uniform(4), uniform(5)};
     }
@@ -353,7 +353,7 @@ std::vector<Light> room_lights(std::size_t count) {
 std::vector<Point> floor_points(std::size_t count) {
     std::vector<Point> points;
     for (std::size_t i = 0; i < count; ++i) {
-        const auto uniform = [i](int k) { return static_cast<float>(to_unit(hash_keys(2, i, k))); };
+        const auto uniform = [i](int k) { return static_cast<float>(uniform01(hash_keys(2, i, k))); };
         const glm::vec3 normal = glm::normalize(glm::vec3(uniform(0) - 0.5f, 1.0f, uniform(1) - 0.5f));
         const glm::vec3 position(10.0f * uniform(2), 0.0f, 10.0f * uniform(3));
         points.emplace_back(position, Material{normal, glm::vec3(0.6f, 0.5f, 0.4f)});

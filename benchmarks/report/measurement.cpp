@@ -103,7 +103,7 @@ private:
     int runs_;
     render::RayScene rays_;
     render::View view_;
-    render::SurfaceFinder surfaces_;
+    render::EyePathTracer surfaces_;
     render::Options usual_;
     render::Picture emitted_;
 };

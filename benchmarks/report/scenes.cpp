@@ -7,7 +7,7 @@
 #include <lightcuts/core/invalid_input.hpp>
 
 #include "io/load_scene.hpp"
-#include "io/scene_sheet.hpp"
+#include "io/scene_description.hpp"
 #include "prepared_scene.hpp"
 #include "scene_options.hpp"
 #include "view.hpp"
@@ -31,9 +31,9 @@ std::shared_ptr<const render::Scene> load(render::Options& options, const std::s
     return scene;
 }
 
-std::vector<render::SheetCamera> cameras_of(const std::string& file, const render::Scene& scene) {
+std::vector<render::DescribedCamera> cameras_of(const std::string& file, const render::Scene& scene) {
     if (!is_builtin(file)) {
-        if (auto sheet = render::sheet_beside(file)) return sheet->cameras;
+        if (auto description = render::description_beside(file)) return description->cameras;
     }
     if (scene.cameras.empty()) {
         throw lightcuts::invalid_input(file + ": the scene has no camera; put a scene.json with cameras beside it");
@@ -54,7 +54,7 @@ std::string short_name(const std::string& text, const render::Options& options) 
 }
 
 /// Sets the size of the picture: what was asked for, the rest in the proportions of the camera's own.
-void set_size(ReportScene& scene, const render::SheetCamera& camera, const ReportSceneOptions& options) {
+void set_size(ReportScene& scene, const render::DescribedCamera& camera, const ReportSceneOptions& options) {
     const double aspect = static_cast<double>(camera.width) / camera.height;
     const auto side = [](double length) { return std::max(1, static_cast<int>(std::lround(length))); };
     if (options.width) {
@@ -85,9 +85,9 @@ std::vector<ReportScene> load_report_scenes(const ReportSceneOptions& options) {
     for (const std::string& name : options.scenes) {
         render::Options lighting = scene_options(name, options.area_points);
         const std::shared_ptr<const render::Scene> scene = load(lighting, name);
-        std::vector<render::SheetCamera> cameras = cameras_of(lighting.scene, *scene);
+        std::vector<render::DescribedCamera> cameras = cameras_of(lighting.scene, *scene);
         if (options.first_camera) cameras.resize(1);
-        for (const render::SheetCamera& camera : cameras) {
+        for (const render::DescribedCamera& camera : cameras) {
             ReportScene& seen = result.emplace_back();
             seen.name = short_name(name, lighting);
             if (cameras.size() > 1) seen.name += ", camera " + camera.camera.name;

@@ -202,7 +202,7 @@ ExitStatus render_scene(Options options) {
         const auto shader = make_shader(scene, rays, options);
         report.seconds.tree = watch.lap();
         const View view(camera, scene.origin, options.width, options.height);
-        const SurfaceFinder surfaces(scene, rays, shade);
+        const EyePathTracer surfaces(scene, rays, shade);
         report.adaptation = options.adaptation ? *options.adaptation : measure_adaptation(view, surfaces, *shader);
         shader->adapt(report.adaptation);
         const Fingerprint fingerprint = fingerprint_of(options, scene, camera, rays, program_build());

@@ -39,9 +39,9 @@ std::array<dvec2, 3> uvs_of(const Scene& scene, const TextureUse& use, const Pie
 /// All that the emission of `material` may depend on.
 std::array<const TextureUse*, 3> uses_of(const Material& material) {
     static const TextureUse none;
-    const bool has_cover = material.alpha != Material::Alpha::opaque;
-    return {&material.emission_texture, has_cover ? &material.base_color_texture : &none,
-            has_cover ? &material.alpha_texture : &none};
+    const bool has_opacity = material.alpha != Material::Alpha::opaque;
+    return {&material.emission_texture, has_opacity ? &material.base_color_texture : &none,
+            has_opacity ? &material.alpha_texture : &none};
 }
 
 /// A number times one in a range, both of them not negative.
@@ -93,8 +93,8 @@ EmissionRange::Bounds EmissionRange::over(const Piece& piece) const {
     if (m.alpha == Material::Alpha::opaque) return bounds;
     const TextureUse& use = m.alpha_texture.is_there() ? m.alpha_texture : m.base_color_texture;
     const TexelRange alpha = product(texels(use, piece), colors);
-    bounds.low *= static_cast<double>(cover_of_alpha(m, m.base_alpha * alpha.low.a));
-    bounds.high *= static_cast<double>(cover_of_alpha(m, m.base_alpha * alpha.high.a));
+    bounds.low *= static_cast<double>(opacity_of_alpha(m, m.base_alpha * alpha.low.a));
+    bounds.high *= static_cast<double>(opacity_of_alpha(m, m.base_alpha * alpha.high.a));
     return bounds;
 }
 

@@ -62,8 +62,8 @@ dvec3 mean_radiance(const Scene& scene, const Piece& piece, std::uint64_t index)
     std::uint64_t drawn = 0;
     const auto add = [&](const glm::vec2& corner, float side) {
         const std::uint64_t bits = lightcuts::hash_keys(piece.triangle, index, drawn++);
-        auto s = static_cast<float>(lightcuts::to_unit(bits));
-        auto t = static_cast<float>(lightcuts::to_unit(lightcuts::mix_bits(bits)));
+        auto s = static_cast<float>(lightcuts::uniform01(bits));
+        auto t = static_cast<float>(lightcuts::uniform01(lightcuts::mix_bits(bits)));
         if (s + t > 1.0f) {
             s = 1.0f - s;
             t = 1.0f - t;
@@ -209,7 +209,7 @@ dvec2 EmissionSampler::lit_place(const Part& part, double along, double across, 
         const auto v = static_cast<float>(place.y);
         if (emitted_radiance(scene_, part.triangle, u, v, true) != glm::vec3(0.0f)) break;
         const std::uint64_t bits = lightcuts::hash_keys(part.triangle, index, tries);
-        place = part.at(lightcuts::to_unit(bits), lightcuts::to_unit(lightcuts::mix_bits(bits)));
+        place = part.at(lightcuts::uniform01(bits), lightcuts::uniform01(lightcuts::mix_bits(bits)));
     }
     return place;
 }

@@ -21,7 +21,7 @@ namespace {
 constexpr std::size_t most_lights = 100'000'000;
 
 /// Distance of a light from its surface, as a share of `Triangle::scale_at`: sixteen steps of a float, above the
-/// rounding of the place and of an intersection there, far below what a cover's distance may be.
+/// rounding of the place and of an intersection there, far below what an occluder's distance may be.
 constexpr float light_offset_share = 0x1p-20f;
 
 bool is_emissive(const Scene& scene, std::size_t triangle) {

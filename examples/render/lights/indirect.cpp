@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <lightcuts/core/invalid_input.hpp>
-#include <lightcuts/source/particles.hpp>
+#include <lightcuts/source/virtual_lights.hpp>
 
 #include "lights/particle_scene.hpp"
 #include "lights/spheres.hpp"
@@ -20,7 +20,7 @@ void add_virtual_lights(Scene& scene, const RayScene& rays, std::size_t count, S
     const ParticleScene surfaces(scene, rays, shade);
     try {
         const auto indirect = lightcuts::virtual_lights(surfaces, sources, {.lights = count},
-                                                        lightcuts::LowDiscrepancy{seed}, TbbExecutor{});
+                                                        lightcuts::ScrambledSobol{seed}, TbbExecutor{});
         scene.virtual_lights.reserve(indirect.lights.size());
         for (const auto& light : indirect.lights) scene.virtual_lights.push_back({light});
     } catch (const lightcuts::invalid_input& problem) {

@@ -13,7 +13,7 @@ namespace render {
 
 namespace {
 
-SurfacePoint point_of(const ParticleScene::Meeting& met, const glm::vec3& direction) {
+SurfacePoint point_of(const ParticleScene::Hit& met, const glm::vec3& direction) {
     SurfacePoint point;
     static_cast<SurfaceLobes&>(point) = met.response.lobes;
     point.position = met.surface.position;
@@ -24,14 +24,14 @@ SurfacePoint point_of(const ParticleScene::Meeting& met, const glm::vec3& direct
 }
 
 /// About the albedo of all lobes seen from `-direction`, and what goes on as rays.
-glm::vec3 albedo_of(const ParticleScene::Meeting& met, const glm::vec3& direction) {
+glm::vec3 albedo_of(const ParticleScene::Hit& met, const glm::vec3& direction) {
     const SurfaceLobes& lobes = met.response.lobes;
     glm::vec3 gloss = lobes.specular;
     if (lobes.model == SurfaceLobes::Model::microfacet) {
         gloss = glm::mix(gloss, glm::vec3(lobes.grazing), schlick(-glm::dot(met.surface.shading_normal, direction)));
     }
-    glm::vec3 sum = met.response.cover * (lobes.diffuse + gloss + lobes.transmitted);
-    for (const Onward& way : met.response.onward()) sum += way.share;
+    glm::vec3 sum = met.response.opacity * (lobes.diffuse + gloss + lobes.transmitted);
+    for (const DeltaLobe& way : met.response.delta_lobes()) sum += way.share;
     return sum;
 }
 
@@ -44,14 +44,13 @@ ParticleScene::ParticleScene(const Scene& scene, const RayScene& rays, Shade sha
     }
 }
 
-std::optional<ParticleScene::Meeting> ParticleScene::intersect(const glm::vec3& origin,
-                                                               const glm::vec3& direction) const {
+std::optional<ParticleScene::Hit> ParticleScene::intersect(const glm::vec3& origin, const glm::vec3& direction) const {
     const auto hit = rays_.nearest(origin, direction);
     if (!hit) return std::nullopt;
     const Material& material = scene_.materials[scene_.triangle_material[hit->triangle]];
     const SurfaceColors colors = colors_at(scene_, hit->triangle, hit->u, hit->v);
-    std::optional<Meeting> result(std::in_place);
-    Meeting& met = *result;
+    std::optional<Hit> result(std::in_place);
+    Hit& met = *result;
     met.surface = surface_at(scene_, *hit, direction);
     met.response = response_of(material, colors, met.surface, direction, shade_);
     met.normal = met.surface.geometric_normal;
@@ -60,15 +59,15 @@ std::optional<ParticleScene::Meeting> ParticleScene::intersect(const glm::vec3& 
     return result;
 }
 
-glm::vec3 ParticleScene::diffuse_albedo(const Meeting& met) const {
-    return glm::min(met.response.cover * met.response.lobes.diffuse, glm::vec3(1.0f));
+glm::vec3 ParticleScene::diffuse_albedo(const Hit& met) const {
+    return glm::min(met.response.opacity * met.response.lobes.diffuse, glm::vec3(1.0f));
 }
 
-glm::vec3 ParticleScene::diffuse_transmittance(const Meeting& met) const {
-    return glm::min(met.response.cover * met.response.lobes.transmitted, glm::vec3(1.0f));
+glm::vec3 ParticleScene::diffuse_transmittance(const Hit& met) const {
+    return glm::min(met.response.opacity * met.response.lobes.transmitted, glm::vec3(1.0f));
 }
 
-lightcuts::ScatteredParticle<> ParticleScene::scatter(const Meeting& met, const glm::vec3& direction,
+lightcuts::ScatteredParticle<> ParticleScene::scatter(const Hit& met, const glm::vec3& direction,
                                                       const glm::vec3& u) const {
     lightcuts::ScatteredParticle<> particle = draw(met, direction, u);
     // Lobes that add up to more than 1 would fill a room with ever more light.
@@ -77,17 +76,17 @@ lightcuts::ScatteredParticle<> ParticleScene::scatter(const Meeting& met, const 
     return particle;
 }
 
-lightcuts::ScatteredParticle<> ParticleScene::draw(const Meeting& met, const glm::vec3& direction,
+lightcuts::ScatteredParticle<> ParticleScene::draw(const Hit& met, const glm::vec3& direction,
                                                    const glm::vec3& u) const {
     const LobeSampler lobes(met.response.lobes, met.surface.shading_normal, -direction);
-    const double reflected = met.response.cover * (lobes.diffuse_share() + lobes.gloss_share());
-    const double transmitted = met.response.cover * mean(met.response.lobes.transmitted);
+    const double reflected = met.response.opacity * (lobes.diffuse_share() + lobes.gloss_share());
+    const double transmitted = met.response.opacity * mean(met.response.lobes.transmitted);
     double all = reflected + transmitted;
-    for (const Onward& way : met.response.onward()) all += mean(way.share);
+    for (const DeltaLobe& way : met.response.delta_lobes()) all += mean(way.share);
     if (!(all > 0.0)) return {};
 
     double at = static_cast<double>(u.z) * all;
-    for (const Onward& way : met.response.onward()) {
+    for (const DeltaLobe& way : met.response.delta_lobes()) {
         const double share = mean(way.share);
         if (at < share) {
             const auto scale = static_cast<float>(all / share);
@@ -98,17 +97,17 @@ lightcuts::ScatteredParticle<> ParticleScene::draw(const Meeting& met, const glm
     if (at < transmitted) {
         const glm::vec3 way(-lobes.diffuse(glm::dvec2(u)));
         if (!(glm::dot(way, met.normal) < 0.0f)) return {};
-        const auto scale = static_cast<float>(met.response.cover * all / transmitted);
+        const auto scale = static_cast<float>(met.response.opacity * all / transmitted);
         return {met.position_behind, way, met.response.lobes.transmitted * scale};
     }
     at -= transmitted;
     if (!(reflected > 0.0)) return {};
-    const double diffuse_chance = lobes.diffuse_share() / (lobes.diffuse_share() + lobes.gloss_share());
+    const double diffuse_probability = lobes.diffuse_share() / (lobes.diffuse_share() + lobes.gloss_share());
     const glm::dvec2 uv(u);
-    const glm::dvec3 way = at < diffuse_chance * reflected ? lobes.diffuse(uv) : lobes.glossy(uv);
+    const glm::dvec3 way = at < diffuse_probability * reflected ? lobes.diffuse(uv) : lobes.glossy(uv);
     if (!(glm::dot(glm::vec3(way), met.normal) > 0.0f)) return {};
-    const double density = lobes.density(way, diffuse_chance) * reflected / all;
-    const glm::vec3 value = met.response.cover * SurfaceMaterial(point_of(met, direction)).evaluate(glm::vec3(way));
+    const double density = lobes.density(way, diffuse_probability) * reflected / all;
+    const glm::vec3 value = met.response.opacity * SurfaceMaterial(point_of(met, direction)).evaluate(glm::vec3(way));
     if (value == glm::vec3(0.0f) || !(density > 0.0)) return {};
     return {met.position, glm::vec3(way), value * static_cast<float>(1.0 / density)};
 }

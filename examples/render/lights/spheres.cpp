@@ -22,7 +22,7 @@ void add_sphere_lights(Scene& scene, std::size_t points, std::uint64_t seed) {
                                        " spherical lights are too many lights; lower --area-points");
     }
     scene.sphere_points = lightcuts::sphere_lights(std::span<const lightcuts::SphereLight<>>(scene.spheres), points,
-                                                   lightcuts::LowDiscrepancy{seed});
+                                                   lightcuts::ScrambledSobol{seed});
 }
 
 std::vector<lightcuts::OrientedPointLight<>> sphere_shells(const Scene& scene) {

@@ -29,7 +29,7 @@ void add_environment(Scene& scene, Picture map, const std::string& name, const O
     environment.picture.channels.clear();
     try {
         const auto lights = lightcuts::environment_lights(environment.map(), options.env_lights,
-                                                          lightcuts::CentredNumbers{options.seed});
+                                                          lightcuts::CenteredSobol{options.seed});
         scene.directional.insert(scene.directional.end(), lights.begin(), lights.end());
         scene.environment_lights += lights.size();
     } catch (const invalid_input& problem) {
@@ -52,13 +52,13 @@ void add_daylight(Scene& scene, const Options& options) {
     const lightcuts::SunSky daylight(
         {options.sun_sky->elevation, options.sun_sky->azimuth, static_cast<double>(options.turbidity)},
         glm::vec3(options.ground));
-    const auto of_sun = lightcuts::sun_lights(daylight, sun_disc_lights, lightcuts::LowDiscrepancy{options.seed});
+    const auto of_sun = lightcuts::sun_lights(daylight, sun_disc_lights, lightcuts::ScrambledSobol{options.seed});
     const auto of_sky = lightcuts::sky_lights(daylight, options.sky_lights, sky_rows,
-                                              lightcuts::CentredNumbers{options.seed});
+                                              lightcuts::CenteredSobol{options.seed});
     scene.directional.insert(scene.directional.end(), of_sun.begin(), of_sun.end());
     scene.directional.insert(scene.directional.end(), of_sky.begin(), of_sky.end());
     const auto of_ground = lightcuts::ground_lights(daylight, ground_light_count(daylight, of_sky),
-                                                    lightcuts::CentredNumbers{options.seed});
+                                                    lightcuts::CenteredSobol{options.seed});
     scene.directional.insert(scene.directional.end(), of_ground.begin(), of_ground.end());
     scene.sun_lights += of_sun.size();
     scene.sky_lights += of_sky.size();

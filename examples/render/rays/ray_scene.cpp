@@ -251,7 +251,7 @@ void RayScene::skip_holes(const RTCFilterFunctionNArguments* arguments) {
         const std::uint32_t triangle = self.translucent_[RTCHitN_primID(arguments->hit, arguments->N, i)];
         const float u = RTCHitN_u(arguments->hit, arguments->N, i);
         const float v = RTCHitN_v(arguments->hit, arguments->N, i);
-        if (cover_at(self.source_, triangle, u, v) == 0.0f) arguments->valid[i] = 0;
+        if (opacity_at(self.source_, triangle, u, v) == 0.0f) arguments->valid[i] = 0;
     }
 }
 

@@ -21,7 +21,7 @@ public:
     explicit Dice(std::uint64_t seed) : seed_(seed) {}
 
     float uniform(float low, float high) {
-        return low + (high - low) * static_cast<float>(lightcuts::to_unit(lightcuts::hash_keys(seed_, calls_++)));
+        return low + (high - low) * static_cast<float>(lightcuts::uniform01(lightcuts::hash_keys(seed_, calls_++)));
     }
     /// pre: count > 0.
     std::size_t pick(std::size_t count) {

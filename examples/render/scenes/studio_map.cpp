@@ -24,7 +24,7 @@ struct Window {
     glm::vec3 radiance;
 
     /// Share of light in `direction`: 1 on a pane, with soft edges.
-    float cover(const glm::vec3& direction) const {
+    float brightness(const glm::vec3& direction) const {
         const glm::vec3 axis = glm::normalize(towards);
         const float distance = glm::dot(direction, axis);
         if (distance <= 0.0f) return 0.0f;
@@ -70,7 +70,7 @@ glm::vec3 radiance(const glm::vec3& direction) {
     if (to_lamp < lamp_radius) return lamp_radiance;
     glm::vec3 sum = dusk(direction);
     sum += 0.004f * lamp_radiance * std::exp(-60.0f * to_lamp);  // what the lamp's glass scatters
-    for (const Window& window : windows) sum += window.cover(direction) * window.radiance;
+    for (const Window& window : windows) sum += window.brightness(direction) * window.radiance;
     return sum;
 }
 

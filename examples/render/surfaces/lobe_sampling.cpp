@@ -49,10 +49,10 @@ glm::dvec3 LobeSampler::glossy(const glm::dvec2& u) const {
     return glm::normalize(2.0 * glm::dot(normal, view_) * normal - view_);
 }
 
-double LobeSampler::density(const glm::dvec3& direction, double chance) const {
+double LobeSampler::density(const glm::dvec3& direction, double probability) const {
     const double cosine = glm::dot(normal_, direction);
     const double diffuse = cosine > 0.0 ? cosine / pi : 0.0;
-    return chance * diffuse + (chance < 1.0 ? (1.0 - chance) * glossy_density(direction) : 0.0);
+    return probability * diffuse + (probability < 1.0 ? (1.0 - probability) * glossy_density(direction) : 0.0);
 }
 
 double LobeSampler::glossy_density(const glm::dvec3& direction) const {

@@ -7,7 +7,7 @@
 
 namespace render {
 
-/// Mean of the channels, by which chances are shared out.
+/// Mean of the channels, by which probabilities are shared out.
 inline double mean(const glm::vec3& v) { return (static_cast<double>(v.x) + v.y + v.z) / 3.0; }
 
 /// Draws directions from the lobes of a surface seen from one side.
@@ -25,8 +25,8 @@ public:
     /// A unit direction of the glossy lobe, maybe below the surface.
     glm::dvec3 glossy(const glm::dvec2& u) const;
 
-    /// Density of `direction` per solid angle, if `diffuse` is called in a share `chance` of the cases.
-    double density(const glm::dvec3& direction, double chance) const;
+    /// Density of `direction` per solid angle, if `diffuse` is called in a share `probability` of the cases.
+    double density(const glm::dvec3& direction, double probability) const;
 
 private:
     double glossy_density(const glm::dvec3& direction) const;

@@ -31,7 +31,7 @@ struct Branch {
 };
 
 /// Where `way` leads from the surface that `at` met at `distance` from the eye.
-Branch continued(const Branch& at, const SurfaceGeometry& surface, const Onward& way, float distance) {
+Branch continued(const Branch& at, const SurfaceGeometry& surface, const DeltaLobe& way, float distance) {
     const int step = way.passes ? 1 : 0;
     return {surface.leave(way.direction), way.direction,   at.weight * way.share, distance,
             at.mirrors + 1 - step,        at.layers + step};
@@ -44,7 +44,7 @@ bool is_worth_following(const Branch& branch) {
 
 }  // namespace
 
-EyeRaySeen SurfaceFinder::follow(const EyeRay& ray, std::uint32_t pixel, std::uint32_t sample,
+EyeRaySeen EyePathTracer::follow(const EyeRay& ray, std::uint32_t pixel, std::uint32_t sample,
                                  std::vector<SurfacePoint>& points) const {
     EyeRaySeen seen;
     seen.depth = std::numeric_limits<float>::infinity();
@@ -66,12 +66,12 @@ EyeRaySeen SurfaceFinder::follow(const EyeRay& ray, std::uint32_t pixel, std::ui
             seen.depth = hit->distance;
             seen.normal = surface.shading_normal;
         }
-        const glm::vec3 weight = at.weight * colors.cover;
+        const glm::vec3 weight = at.weight * colors.opacity;
         seen.emitted += at.weight * emitted_radiance(scene_, hit->triangle, hit->u, hit->v, surface.front);
 
         const float distance = at.travelled + hit->distance;
         const SurfaceResponse response = response_of(material, colors, surface, at.direction, shade_);
-        for (const Onward& way : response.onward()) {
+        for (const DeltaLobe& way : response.delta_lobes()) {
             const Branch branch = continued(at, surface, way, distance);
             if (is_worth_following(branch)) open.push_back(branch);
         }

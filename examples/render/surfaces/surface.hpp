@@ -35,10 +35,10 @@ struct EyeRaySeen {
 
 /// Finds the points that eye rays see: directly, through masks and leaves, in mirrors and through glass.
 /// threads: `follow` may run at once for different rays.
-class SurfaceFinder {
+class EyePathTracer {
 public:
     /// `scene` and `rays` must outlive this object.
-    SurfaceFinder(const Scene& scene, const RayScene& rays, Shade shade) : scene_(scene), rays_(rays), shade_(shade) {}
+    EyePathTracer(const Scene& scene, const RayScene& rays, Shade shade) : scene_(scene), rays_(rays), shade_(shade) {}
 
     /// Appends to `points` what `ray` sees that reflects light, in a fixed order. Both parts of light at glass are
     /// followed; parts below 1e-4 of the ray are not. cost: one ray cast, more at mirrors, glass and leaves (at

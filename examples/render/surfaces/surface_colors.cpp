@@ -47,8 +47,8 @@ struct Spot {
         return glm::vec4(m.base_color, m.base_alpha) * texel * vertex_color();
     }
 
-    float cover() const {
-        return material().alpha == Material::Alpha::opaque ? 1.0f : cover_of_alpha(material(), base().a);
+    float opacity() const {
+        return material().alpha == Material::Alpha::opaque ? 1.0f : opacity_of_alpha(material(), base().a);
     }
 };
 
@@ -92,7 +92,7 @@ void set_microfacet_reflectance(const Spot& spot, SurfaceColors& colors) {
 
 }  // namespace
 
-float cover_of_alpha(const Material& material, float alpha) {
+float opacity_of_alpha(const Material& material, float alpha) {
     switch (material.alpha) {
         case Material::Alpha::opaque: return 1.0f;
         case Material::Alpha::mask: return alpha >= material.alpha_cutoff ? 1.0f : 0.0f;
@@ -111,7 +111,7 @@ SurfaceColors colors_at(const Scene& scene, std::uint32_t triangle, float u, flo
     const glm::vec4 base = spot.base();
     SurfaceColors colors;
     colors.base = glm::vec3(base);
-    colors.cover = cover_of_alpha(material, base.a);
+    colors.opacity = opacity_of_alpha(material, base.a);
     switch (material.model) {
         case Material::Model::microfacet: {
             const glm::vec4 metal_rough = spot.texel(material.metallic_roughness_texture);
@@ -151,7 +151,7 @@ glm::vec3 emitted_radiance(const Scene& scene, std::uint32_t triangle, float u, 
     if (material.emission == glm::vec3(0.0f) || !(front || material.double_sided)) return glm::vec3(0.0f);
     glm::vec3 radiance = material.emission * glm::vec3(spot.texel(material.emission_texture));
     if (material.model == Material::Model::unlit) radiance *= glm::vec3(spot.vertex_color());
-    return radiance * spot.cover();
+    return radiance * spot.opacity();
 }
 
 bool has_varying_emission(const Scene& scene, const Material& material) {
@@ -161,19 +161,19 @@ bool has_varying_emission(const Scene& scene, const Material& material) {
     return material.base_color_texture.is_there() || material.alpha_texture.is_there() || !scene.colors.empty();
 }
 
-float cover_at(const Scene& scene, std::uint32_t triangle, float u, float v) {
-    return Spot{scene, triangle, u, v}.cover();
+float opacity_at(const Scene& scene, std::uint32_t triangle, float u, float v) {
+    return Spot{scene, triangle, u, v}.opacity();
 }
 
 glm::vec3 tint_at(const Scene& scene, std::uint32_t triangle, float u, float v) {
     const Spot spot{scene, triangle, u, v};
     const Material& material = spot.material();
     const glm::vec4 base = spot.base();
-    const float cover = cover_of_alpha(material, base.a);
-    glm::vec3 passed(1.0f - cover);
+    const float opacity = opacity_of_alpha(material, base.a);
+    glm::vec3 passed(1.0f - opacity);
     if (material.transmission > 0.0f) {
         const float metallic = material.metallic * spot.texel(material.metallic_roughness_texture).b;
-        passed += cover * transmission_of(material, metallic) * glm::vec3(base);
+        passed += opacity * transmission_of(material, metallic) * glm::vec3(base);
     }
     return glm::min(passed, glm::vec3(1.0f));
 }
@@ -188,7 +188,7 @@ std::vector<bool> transmissive_materials(const Scene& scene) {
             const TextureUse& use = material.alpha_texture.is_there() ? material.alpha_texture
                                                                       : material.base_color_texture;
             const float alpha = material.base_alpha * smallest_texture_alpha(scene, use) * vertex_alpha;
-            passes[i] = cover_of_alpha(material, alpha) < 1.0f;
+            passes[i] = opacity_of_alpha(material, alpha) < 1.0f;
         }
     }
     return passes;

@@ -13,7 +13,7 @@ namespace render {
 /// A material's parameters at one point: textures and vertex colours applied.
 struct SurfaceColors {
     glm::vec3 base{0.0f};
-    float cover = 1;  ///< share of the point that is there at all: alpha MASK gives 0 or 1, BLEND alpha
+    float opacity = 1;  ///< share of the point that is there at all: alpha MASK gives 0 or 1, BLEND alpha
     float metallic = 0;
     float roughness = 1;
     glm::vec3 specular{0.0f};        ///< phong: Ks; else reflectance at normal incidence
@@ -32,19 +32,19 @@ SurfaceColors colors_at(const Scene& scene, std::uint32_t triangle, float u, flo
 
 /// Radiance that barycentric (u, v) of `triangle` emits towards those who see its `front`, from where its corners run
 /// counter-clockwise, or its back: what is seen of it, what lights by it, and what it shows in mirrors. Emission times
-/// its texture (and, of unlit materials, the vertex colour) times cover; 0 on a side that does not emit.
+/// its texture (and, of unlit materials, the vertex colour) times opacity; 0 on a side that does not emit.
 glm::vec3 emitted_radiance(const Scene& scene, std::uint32_t triangle, float u, float v, bool front);
 
 /// True iff `emitted_radiance` varies over triangles of `material`.
 bool has_varying_emission(const Scene& scene, const Material& material);
 
 /// The share of a surface of `material` that is there where its alpha is `alpha`; it does not fall as that grows.
-float cover_of_alpha(const Material& material, float alpha);
+float opacity_of_alpha(const Material& material, float alpha);
 
-/// `colors_at(...).cover` alone.
-float cover_at(const Scene& scene, std::uint32_t triangle, float u, float v);
+/// `colors_at(...).opacity` alone.
+float opacity_at(const Scene& scene, std::uint32_t triangle, float u, float v);
 
-/// What a shadow ray keeps of light that crosses the point, per channel: 1 - cover + cover x transmission x base.
+/// What a shadow ray keeps of light that crosses the point, per channel: 1 - opacity + opacity x transmission x base.
 glm::vec3 tint_at(const Scene& scene, std::uint32_t triangle, float u, float v);
 
 /// Which materials let some light pass somewhere. An alpha mode that no texel makes use of does not count.

@@ -31,15 +31,15 @@ struct Encounter {
     const glm::vec3& direction;
     SurfaceResponse& response;
 
-    void pass(const glm::vec3& share) const { response.go_on({direction, share, true}); }
-    void mirror(const glm::vec3& share) const { response.go_on({surface.reflect(direction), share, false}); }
+    void pass(const glm::vec3& share) const { response.add_delta_lobe({direction, share, true}); }
+    void mirror(const glm::vec3& share) const { response.add_delta_lobe({surface.reflect(direction), share, false}); }
     float cosine() const { return -glm::dot(surface.shading_normal, direction); }
 
     void meet() const {
         SurfaceLobes& lobes = response.lobes;
         switch (material.model) {
             case Material::Model::unlit: break;
-            case Material::Model::mirror: mirror(colors.cover * colors.base); break;
+            case Material::Model::mirror: mirror(colors.opacity * colors.base); break;
             case Material::Model::glass: meet_glass(); break;
             case Material::Model::phong:
                 lobes.diffuse = colors.base;
@@ -58,24 +58,24 @@ struct Encounter {
     void meet_glass() const {
         const float eta = surface.front ? 1.0f / material.ior : material.ior;
         const float reflected = fresnel(cosine(), eta);
-        mirror(glm::vec3(colors.cover * reflected));
+        mirror(glm::vec3(colors.opacity * reflected));
         if (reflected >= 1.0f) return;
         const float behind = std::sqrt(std::max(0.0f, 1.0f - eta * eta * (1.0f - cosine() * cosine())));
         const glm::vec3 refracted = eta * direction + (eta * cosine() - behind) * surface.shading_normal;
-        response.go_on({glm::normalize(refracted), colors.cover * (1.0f - reflected) * colors.base, false});
+        response.add_delta_lobe({glm::normalize(refracted), colors.opacity * (1.0f - reflected) * colors.base, false});
     }
 
     void meet_microfacets(SurfaceLobes& lobes, bool is_metal) const {
         const bool smooth = colors.roughness < mirror_roughness;
         if (smooth && is_metal) {
-            mirror(colors.cover * reflectance());
+            mirror(colors.opacity * reflectance());
             return;
         }
         if (colors.transmission > 0.0f) {
             // A thin pane: light goes straight on, and a smooth one also mirrors.
             const glm::vec3 reflected = reflectance() * colors.transmission;
-            pass(colors.cover * (colors.transmission - reflected) * colors.base);
-            if (smooth) mirror(colors.cover * reflected);
+            pass(colors.opacity * (colors.transmission - reflected) * colors.base);
+            if (smooth) mirror(colors.opacity * reflected);
         }
         const float diffuse = (1.0f - colors.metallic) * (1.0f - colors.transmission);
         lobes.diffuse = colors.base * (diffuse * (1.0f - colors.diffuse_transmission));
@@ -99,9 +99,9 @@ float schlick(float cosine) {
 SurfaceResponse response_of(const Material& material, const SurfaceColors& colors, const SurfaceGeometry& surface,
                             const glm::vec3& direction, Shade shade) {
     SurfaceResponse response;
-    response.cover = colors.cover;
+    response.opacity = colors.opacity;
     const Encounter encounter{material, colors, surface, direction, response};
-    if (colors.cover < 1.0f) encounter.pass(glm::vec3(1.0f - colors.cover));
+    if (colors.opacity < 1.0f) encounter.pass(glm::vec3(1.0f - colors.opacity));
     if (shade == Shade::full) {
         encounter.meet();
     } else if (material.model != Material::Model::unlit) {

@@ -34,8 +34,9 @@ struct SurfaceLobes {
     }
 };
 
-/// A direction in which a ray goes on from a surface as a ray: through a hole or a pane, or off a mirror.
-struct Onward {
+/// A direction in which a ray goes on from a surface as a ray, a delta function of what it scatters: through a hole or
+/// a pane, or off a mirror.
+struct DeltaLobe {
     glm::vec3 direction{0.0f};
     glm::vec3 share{0.0f};  ///< of the light
     bool passes = false;    ///< straight through
@@ -43,15 +44,15 @@ struct Onward {
 
 /// What a surface does with a ray.
 struct SurfaceResponse {
-    float cover = 1.0f;  ///< share of the point that is there at all, and has the lobes
+    float opacity = 1.0f;  ///< share of the point that is there at all, and has the lobes
     SurfaceLobes lobes;
 
-    std::span<const Onward> onward() const { return std::span(ways_).first(count_); }
+    std::span<const DeltaLobe> delta_lobes() const { return std::span(lobes_).first(count_); }
     /// pre: fewer than three so far
-    void go_on(const Onward& way) { ways_[count_++] = way; }
+    void add_delta_lobe(const DeltaLobe& lobe) { lobes_[count_++] = lobe; }
 
 private:
-    std::array<Onward, 3> ways_;
+    std::array<DeltaLobe, 3> lobes_;
     std::size_t count_ = 0;
 };
 

@@ -31,7 +31,7 @@ Texture make_texture(std::string name, const EncodedImage& image, bool srgb);
 int wrapped_texel(int i, int size, Texture::Wrap wrap);
 
 /// What becomes of colours that a picture holds times its alpha, as OpenEXR does. A surface's are multiplied by its
-/// cover when they are seen; emitted radiance is stored as it is seen.
+/// opacity when they are seen; emitted radiance is stored as it is seen.
 enum class Premultiplication { undo, keep };
 
 /// A texture of a picture's file, by what it holds: PNG (8 or 16 bits a channel), JPEG, TGA, BMP; Radiance and OpenEXR,

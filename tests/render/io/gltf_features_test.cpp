@@ -47,7 +47,7 @@ Seen look_down(const Scene& s, float x, float z) {
     seen.is_there = true;
     seen.colors = render::colors_at(s, hit->triangle, hit->u, hit->v);
     std::vector<render::SurfacePoint> points;
-    seen.emitted = render::SurfaceFinder(s, rays, render::Shade::full).follow({from, down}, 0, 0, points).emitted;
+    seen.emitted = render::EyePathTracer(s, rays, render::Shade::full).follow({from, down}, 0, 0, points).emitted;
     seen.normal = render::surface_at(s, *hit, down).shading_normal;
     return seen;
 }
@@ -90,7 +90,7 @@ TEST(GltfVertexColours, MultiplyBaseColourAndAlpha) {
         file.add_node({{"mesh", file.add_mesh(attributes, {{"material", material}})}});
         const Seen seen = look_down(file.load(), -0.3f, 0.2f);
         expect_near(seen.colors.base, {0.5f, 0.125f, 0.0f}, 3e-3f);
-        EXPECT_NEAR(seen.colors.cover, kind == 0 ? 0.5f : 0.375f, 2e-3f);
+        EXPECT_NEAR(seen.colors.opacity, kind == 0 ? 0.5f : 0.375f, 2e-3f);
     }
     GltfBuilder plain;
     plain.add_node({{"mesh", plain.add_mesh(plain.square())}});
@@ -594,7 +594,7 @@ TEST(GltfMaterial, SpecularGlossinessIsTheOlderWay) {
     expect_near(c.base, {0.4f, 0.2f, 0.1f});  // what is not reflected at the surface: half
     expect_near(c.specular, {0.1f, 0.5f, 0.3f});
     EXPECT_NEAR(c.roughness, 0.3f, 1e-6f);
-    EXPECT_NEAR(c.cover, 0.5f, 1e-6f);
+    EXPECT_NEAR(c.opacity, 0.5f, 1e-6f);
 }
 
 TEST(GltfCamera, OfTwoNodesIsTwo) {

@@ -48,14 +48,14 @@ std::vector<std::string> left_out(const Scene& scene) {
 
 std::vector<std::string> left_out_by(const std::string& statements) { return left_out(load(statements)); }
 
-TEST(ObjMirror, HasCoverAndAMapOfItsReflectance) {
+TEST(ObjMirror, HasOpacityAndAMapOfItsReflectance) {
     const auto colors = [](const std::string& statements) {
         return render::colors_at(load(statements), 0, 0.3f, 0.3f);
     };
-    EXPECT_EQ(colors("illum 5\nKs 1").cover, 1.0f);
-    EXPECT_EQ(colors("illum 5\nKs 1\nd 0.25").cover, 0.25f);
-    EXPECT_EQ(colors("illum 5\nKs 1\nmap_d hole.bmp").cover, 0.0f);
-    EXPECT_EQ(colors("illum 5\nKs 1\nd 0.5\nmap_d white.bmp").cover, 0.5f);
+    EXPECT_EQ(colors("illum 5\nKs 1").opacity, 1.0f);
+    EXPECT_EQ(colors("illum 5\nKs 1\nd 0.25").opacity, 0.25f);
+    EXPECT_EQ(colors("illum 5\nKs 1\nmap_d hole.bmp").opacity, 0.0f);
+    EXPECT_EQ(colors("illum 5\nKs 1\nd 0.5\nmap_d white.bmp").opacity, 0.5f);
     EXPECT_EQ(colors("illum 5\nKs 0.5\nmap_Ks red.bmp").base, glm::vec3(0.5f, 0, 0));
     EXPECT_EQ(colors("illum 5\nmap_Ks red.bmp").base, glm::vec3(1, 0, 0)) << "a factor that is not there is 1";
     EXPECT_TRUE(left_out_by("illum 5\nKs 1\nd 0.25\nmap_Ks red.bmp\nmap_d white.bmp").empty());

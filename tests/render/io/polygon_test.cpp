@@ -22,7 +22,7 @@ using render::triangles_of;
 class Numbers {
 public:
     explicit Numbers(std::uint64_t seed) : seed_(seed) {}
-    double next() { return lightcuts::to_unit(lightcuts::hash_keys(seed_, count_++)); }
+    double next() { return lightcuts::uniform01(lightcuts::hash_keys(seed_, count_++)); }
 
 private:
     std::uint64_t seed_;

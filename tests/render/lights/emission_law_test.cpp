@@ -13,11 +13,11 @@
 
 namespace {
 
+using render::EyePathTracer;
 using render::Material;
 using render::RayScene;
 using render::Scene;
 using render::Shade;
-using render::SurfaceFinder;
 using render::Texture;
 
 /// A texture of 64 x 64 texels: `f(u, v)` at their centres.
@@ -76,7 +76,7 @@ glm::dvec3 irradiance_of_lights(Scene s) {
 glm::dvec3 irradiance_of_what_is_seen(const Scene& s, float half_window) {
     constexpr int steps = 400;
     const RayScene rays(s);
-    const SurfaceFinder eye(s, rays, Shade::full);
+    const EyePathTracer eye(s, rays, Shade::full);
     std::vector<render::SurfacePoint> points;
     glm::dvec3 sum(0.0);
     for (int i = 0; i < steps; ++i) {
@@ -147,7 +147,7 @@ const EmitterType emitter_types[] = {
      }},
     {"blendedByVertices", [](Scene&, Material& m) { m.alpha = Material::Alpha::blend; }},
     {"maskedByVertices", [](Scene&, Material& m) { m.alpha = Material::Alpha::mask; }},
-    {"coveredByAMap",
+    {"opacityByAMap",
      [](Scene&, Material& m) {
          m.model = Material::Model::phong;
          m.alpha = Material::Alpha::blend;

@@ -41,7 +41,7 @@ void add_spot(Texture& t, int x, int y, int size, const glm::vec3& color) {
 }
 
 /// In [0, 1), by two numbers.
-double draw(std::uint64_t a, std::uint64_t b) { return lightcuts::to_unit(lightcuts::hash_keys(a, b)); }
+double draw(std::uint64_t a, std::uint64_t b) { return lightcuts::uniform01(lightcuts::hash_keys(a, b)); }
 
 /// The integral of a map over whole periods, per area: each texel weighs the same, however it is interpolated.
 dvec3 mean_of(const Texture& t) {
@@ -144,22 +144,22 @@ TEST(EmissionSamples, AreThoseOfWhatIsThere) {
             Texture map = map_of(1024, 1024, nearest);
             add_spot(map, 336, 160, 32, {1000.0f, 2000.0f, 500.0f});
             add_spot(map, 801, 902, 2, {3.0f, 0.0f, 9.0f});
-            Texture cover = map_of(size, size, nearest);
+            Texture opacity = map_of(size, size, nearest);
             for (int y = 0; y < size; ++y) {
                 for (int x = 0; x < size; ++x) {
-                    texel(cover, x, y).a = x * 1024 / size < 352 ? 0.25f : y * 1024 / size < 600 ? 0.125f : 0.75f;
+                    texel(opacity, x, y).a = x * 1024 / size < 352 ? 0.25f : y * 1024 / size < 600 ? 0.125f : 0.75f;
                 }
             }
             dvec3 sum(0.0);
             for (int y = 0; y < 1024; ++y) {
                 for (int x = 0; x < 1024; ++x) {
-                    const float a = texel(cover, x * size / 1024, y * size / 1024).a;
+                    const float a = texel(opacity, x * size / 1024, y * size / 1024).a;
                     const float share = alpha == Material::Alpha::blend ? a : a >= 0.2f ? 1.0f : 0.0f;
                     sum += dvec3(texel(map, x, y)) * static_cast<double>(share);
                 }
             }
             Scene s = panel(map);
-            s.textures.push_back(cover);
+            s.textures.push_back(opacity);
             s.materials[0].alpha = alpha;
             s.materials[0].alpha_cutoff = 0.2f;
             s.materials[0].alpha_texture.texture = 1;
@@ -270,15 +270,15 @@ TEST(EmissionRange, BoundsWhatIsEmitted) {
     for (int round = 0; round < 300; ++round) {
         Texture map = map_of(1 + static_cast<int>(40 * random()), 1 + static_cast<int>(40 * random()));
         for (glm::vec4& t : map.texels) t = {random(), random(), random(), random()};
-        Texture cover = map;
-        std::reverse(cover.texels.begin(), cover.texels.end());
-        for (Texture* t : {&map, &cover}) {
+        Texture opacity = map;
+        std::reverse(opacity.texels.begin(), opacity.texels.end());
+        for (Texture* t : {&map, &opacity}) {
             t->wrap_u = static_cast<Texture::Wrap>(static_cast<int>(3 * random()));
             t->wrap_v = static_cast<Texture::Wrap>(static_cast<int>(3 * random()));
             t->filter = random() < 0.5f ? Texture::Filter::linear : Texture::Filter::nearest;
         }
         Scene s = panel(map, 1.0f + 3.0f * random());
-        s.textures.push_back(cover);
+        s.textures.push_back(opacity);
         Material& m = s.materials[0];
         m.alpha = static_cast<Material::Alpha>(static_cast<int>(3 * random()));
         m.base_color_texture.texture = 1;

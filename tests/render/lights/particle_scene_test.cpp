@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
-#include <lightcuts/source/numbers.hpp>
+#include <lightcuts/source/sampler.hpp>
 #include <render/lights/particle_scene.hpp>
 #include <render/surfaces/surface_material.hpp>
 
@@ -96,11 +96,11 @@ TEST(ParticleScene, ScattersAsSurfacesReflect) {
         EXPECT_EQ(met->normal, glm::vec3(0, 1, 0));
 
         constexpr std::uint32_t samples = 1u << 15;
-        const lightcuts::LowDiscrepancy numbers{7};
+        const lightcuts::ScrambledSobol sampler{7};
         Moments found;
         for (std::uint32_t i = 0; i < samples; ++i) {
             const auto number = [&](std::uint32_t d) {
-                return std::min(0.99999994f, static_cast<float>(numbers(i, d)));
+                return std::min(0.99999994f, static_cast<float>(sampler(i, d)));
             };
             const auto way = surfaces.scatter(*met, direction, {number(0), number(1), number(2)});
             if (way.weight == glm::vec3(0.0f)) continue;
@@ -111,10 +111,11 @@ TEST(ParticleScene, ScattersAsSurfacesReflect) {
 
         // What surfaces do with an eye ray along that direction, added up.
         std::vector<render::SurfacePoint> points;
-        const render::SurfaceFinder finder(scene, rays, render::Shade::full);
-        finder.follow({-2.0f * direction, direction}, 0, 0, points);
+        const render::EyePathTracer tracer(scene, rays, render::Shade::full);
+        tracer.follow({-2.0f * direction, direction}, 0, 0, points);
         Moments expected;
-        for (const auto& way : met->response.onward()) expected.add(glm::dvec3(way.share), glm::dvec3(way.direction));
+        for (const auto& way : met->response.delta_lobes())
+            expected.add(glm::dvec3(way.share), glm::dvec3(way.direction));
         for (const auto& point : points) {
             const render::SurfaceMaterial reflects(point);
             constexpr int steps = 500;
@@ -150,10 +151,10 @@ TEST(ParticleScene, ScattersNoMoreThanArrives) {
     const auto met = surfaces.intersect(-2.0f * direction, direction);
     ASSERT_TRUE(met);
     constexpr std::uint32_t samples = 1u << 16;
-    const lightcuts::LowDiscrepancy numbers{3};
+    const lightcuts::ScrambledSobol sampler{3};
     glm::dvec3 sum(0.0);
     for (std::uint32_t i = 0; i < samples; ++i) {
-        const auto at = [&](std::uint32_t d) { return std::min(static_cast<float>(numbers(i, d)), 1.0f - 0x1p-24f); };
+        const auto at = [&](std::uint32_t d) { return std::min(static_cast<float>(sampler(i, d)), 1.0f - 0x1p-24f); };
         sum += glm::dvec3(surfaces.scatter(*met, direction, {at(0), at(1), at(2)}).weight);
     }
     for (int c = 0; c < 3; ++c) EXPECT_LT(sum[c] / samples, 1.01) << c;

@@ -10,13 +10,13 @@
 
 namespace {
 
+using render::EyePathTracer;
 using render::EyeRay;
 using render::EyeRaySeen;
 using render::Material;
 using render::RayScene;
 using render::Scene;
 using render::Shade;
-using render::SurfaceFinder;
 using render::SurfacePoint;
 
 /// Squares of side 2 with the normal +z, one above the other.
@@ -49,7 +49,7 @@ struct Found {
 Found follow(const Scene& scene, const EyeRay& ray, Shade shade = Shade::full) {
     const RayScene rays(scene);
     Found found;
-    found.seen = SurfaceFinder(scene, rays, shade).follow(ray, 3, 2, found.points);
+    found.seen = EyePathTracer(scene, rays, shade).follow(ray, 3, 2, found.points);
     return found;
 }
 

@@ -6,8 +6,8 @@
 
 namespace lightcuts::detail {
 
-/// Chooses one of many with chances in proportion to their weights.
-class WeightedChoice {
+/// Draws one of many with probabilities in proportion to their weights.
+class DiscreteDistribution {
 public:
     void add(double weight) { cumulative_.push_back(total() + weight); }
     /// To be called after the last `add`. pre: total() > 0
@@ -24,7 +24,9 @@ public:
     double total() const { return cumulative_.empty() ? 0.0 : cumulative_.back(); }
 
     /// The share of choice `at` in the total.
-    double chance(std::size_t at) const { return (cumulative_[at] - (at > 0 ? cumulative_[at - 1] : 0.0)) / total(); }
+    double probability(std::size_t at) const {
+        return (cumulative_[at] - (at > 0 ? cumulative_[at - 1] : 0.0)) / total();
+    }
 
     /// The choice for `u` in [0, 1): the first whose weight and those before it exceed that share of the total. It is
     /// looked for from where the cell of u begins, as cells are many [Chen and Asau 1974]. cost: O(1), on average

@@ -2,12 +2,12 @@
 
 #include <map>
 
-#include <render/io/scene_sheet.hpp>
+#include <render/io/scene_description.hpp>
 
 #include "fuzz_target.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     return feed(data, size, [](std::string_view bytes) {
-        render::read_scene_sheet("scene.json", render::MemoryFiles({{"scene.json", std::string(bytes)}}));
+        render::read_scene_description("scene.json", render::MemoryFiles({{"scene.json", std::string(bytes)}}));
     });
 }

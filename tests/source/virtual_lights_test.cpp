@@ -13,7 +13,7 @@
 #include <lightcuts/light/directional.hpp>
 #include <lightcuts/light/omni.hpp>
 #include <lightcuts/light/spot.hpp>
-#include <lightcuts/source/particles.hpp>
+#include <lightcuts/source/virtual_lights.hpp>
 #include "support/statistics.hpp"
 #include "support/threads.hpp"
 
@@ -95,15 +95,15 @@ struct Floor {
 
 /// The floor as a sheet that passes light on.
 struct Sheet : Floor {
-    struct Meeting : Hit {
+    struct SheetHit : Hit {
         V position_behind;
     };
     V transmittance{0.0f};
 
-    std::optional<Meeting> intersect(const V& origin, const V& direction) const {
+    std::optional<SheetHit> intersect(const V& origin, const V& direction) const {
         const auto hit = Floor::intersect(origin, direction);
         if (!hit) return std::nullopt;
-        return Meeting{*hit, hit->position - V(0.0f, 1e-4f, 0.0f)};
+        return SheetHit{*hit, hit->position - V(0.0f, 1e-4f, 0.0f)};
     }
     V diffuse_transmittance(const Hit&) const { return transmittance; }
 };
@@ -122,7 +122,7 @@ template <class Room, class L>
 void expect_geometric_series(const Room& room, const std::vector<L>& lights, const glm::dvec3& flux) {
     std::vector<Mean> means(3);
     for (std::uint64_t seed = 0; seed < 200; ++seed) {
-        const auto made = virtual_lights(room, ParticleSources(lights), {.lights = 500}, LowDiscrepancy{seed});
+        const auto made = virtual_lights(room, ParticleSources(lights), {.lights = 500}, ScrambledSobol{seed});
         for (std::size_t c = 0; c < 3; ++c) means[c].add(flux_of(made.lights)[int(c)]);
     }
     for (std::size_t c = 0; c < 3; ++c) {
@@ -224,7 +224,7 @@ TEST(VirtualLights, TravelOverMirrorsWithoutStayingThere) {
     const std::vector<OmniLight<>> omni{{V(1.0f, 0.5f, 1.0f), V(1.0f), {}}};
     Mean mean;
     for (std::uint64_t seed = 0; seed < 100; ++seed) {
-        const auto made = virtual_lights(room, ParticleSources(omni), {.lights = 500}, LowDiscrepancy{seed});
+        const auto made = virtual_lights(room, ParticleSources(omni), {.lights = 500}, ScrambledSobol{seed});
         for (const auto& l : made.lights) EXPECT_LT(l.axis.y, 0.5f);
         mean.add(flux_of(made.lights).x);
     }
@@ -240,7 +240,7 @@ TEST(VirtualLights, LieOnBothSidesOfALeafByWhatLeavesThere) {
         {V(0.5f, 0.01f, 0.5f), V(0.0f, -1.0f, 0.0f), V(1.0f, 2.0f, 3.0f), {}}};
     std::vector<Mean> above(3), behind(3);
     for (std::uint64_t seed = 0; seed < 100; ++seed) {
-        const auto made = virtual_lights(leaf, ParticleSources(lamp), {.lights = 500}, LowDiscrepancy{seed});
+        const auto made = virtual_lights(leaf, ParticleSources(lamp), {.lights = 500}, ScrambledSobol{seed});
         std::vector<OrientedPointLight<V>> up, down;
         for (const auto& l : made.lights) (l.axis.y > 0.0f ? up : down).push_back(l);
         for (const auto& l : up) EXPECT_EQ(l.position.y, 0.0f);
@@ -262,7 +262,7 @@ TEST(VirtualLights, LieOnBothSidesOfALeafByWhatLeavesThere) {
 
 TEST(VirtualLights, AreOneWhereAParticleIsBrighterThanItsLights) {
     const Sheet leaf{{V(0.4f)}, V(0.2f)};
-    const Sheet::Meeting hit{{V(0.0f), V(0.0f, 1.0f, 0.0f)}, V(0.0f, -1e-4f, 0.0f)};
+    const Sheet::SheetHit hit{{V(0.0f), V(0.0f, 1.0f, 0.0f)}, V(0.0f, -1e-4f, 0.0f)};
     const V power(1.0f, 2.0f, 3.0f);  // 2.4 of 6 go up and 1.2 down
     std::vector<OrientedPointLight<V>> lights;
     const int count = 3000;
@@ -284,8 +284,8 @@ TEST(VirtualLights, DependOnTheSeedButNotOnThreads) {
     const std::vector<OmniLight<>> omni{{V(1.0f, 0.5f, 1.0f), V(1.0f), {}}};
     const ParticleSources sources(omni);
     const auto a = virtual_lights(room, sources, {.lights = 30000});
-    const auto b = virtual_lights(room, sources, {.lights = 30000}, LowDiscrepancy{}, FourThreads{});
-    const auto c = virtual_lights(room, sources, {.lights = 30000}, LowDiscrepancy{1});
+    const auto b = virtual_lights(room, sources, {.lights = 30000}, ScrambledSobol{}, FourThreads{});
+    const auto c = virtual_lights(room, sources, {.lights = 30000}, ScrambledSobol{1});
     ASSERT_EQ(a.lights.size(), b.lights.size());
     EXPECT_EQ(a.particles, b.particles);
     for (std::size_t i = 0; i < a.lights.size(); ++i) {

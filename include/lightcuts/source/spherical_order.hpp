@@ -11,9 +11,9 @@ namespace lightcuts::detail {
 /// rectangles are halved across their longer side, as long as it is on the sphere, and the half that lies closer to
 /// the last pixel is walked first. `visit(x, y)` is called once for each pixel. cost: O(pixels)
 template <class Visit>
-class MapWalk {
+class SphericalOrder {
 public:
-    MapWalk(std::uint32_t width, std::uint32_t height, Visit& visit)
+    SphericalOrder(std::uint32_t width, std::uint32_t height, Visit& visit)
         : height_(height), across_(2.0 * std::numbers::pi / width), up_(std::numbers::pi / height), visit_(visit) {
         walk({0, 0, width, height});
     }
@@ -53,8 +53,8 @@ private:
 };
 
 template <class Visit>
-void walk_map(std::uint32_t width, std::uint32_t height, Visit&& visit) {
-    MapWalk<std::remove_reference_t<Visit>>(width, height, visit);
+void visit_in_spherical_order(std::uint32_t width, std::uint32_t height, Visit&& visit) {
+    SphericalOrder<std::remove_reference_t<Visit>>(width, height, visit);
 }
 
 }  // namespace lightcuts::detail

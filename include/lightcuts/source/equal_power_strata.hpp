@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "../core/spectrum.hpp"
-#include "numbers.hpp"
+#include "sampler.hpp"
 
 namespace lightcuts::detail {
 
@@ -28,46 +28,46 @@ private:
     std::array<double, static_cast<std::size_t>(channels_of<S>)> sums_{};
 };
 
-/// One of several parts of equal weight of a stream of pieces, and the point of it where its light goes.
+/// One of several strata of equal weight of a stream of pieces, and the point of it where its light goes.
 template <class Piece, Spectrum S>
-struct Share {
+struct PowerStratum {
     Piece piece{};         ///< that the point lies in
     double fraction = 0;   ///< of the piece before the point, in [0, 1)
-    S power = black<S>();  ///< of the whole share
+    S power = black<S>();  ///< of the whole stratum
 };
 
-/// Cuts a stream of pieces, consecutive along some curve, into `count` shares of equal weight. A piece may be cut into
-/// many shares, and a share may hold many pieces; the power of all pieces is in the shares, channel by channel. The
-/// point of share i lies at the fraction numbers(i, 0) of its weight.
-template <class Piece, Spectrum S, NumberSource Numbers>
-class EqualShares {
+/// Cuts a stream of pieces, consecutive along some curve, into `count` strata of equal weight. A piece may be cut into
+/// many strata, and a stratum may hold many pieces; the power of all pieces is in the strata, channel by channel. The
+/// point of stratum i lies at the fraction sampler(i, 0) of its weight.
+template <class Piece, Spectrum S, Sampler Sequence>
+class EqualPowerStrata {
 public:
     /// `total`: the weights of all pieces. pre: total > 0, count > 0
-    EqualShares(double total, std::size_t count, const Numbers& numbers)
-        : size_(total / static_cast<double>(count)), count_(count), numbers_(numbers) {
-        shares_.reserve(count);
-        start_share();
+    EqualPowerStrata(double total, std::size_t count, const Sequence& sampler)
+        : size_(total / static_cast<double>(count)), count_(count), sampler_(sampler) {
+        strata_.reserve(count);
+        start_stratum();
     }
 
     /// Appends a piece whose power is `spectrum` x `scale`.
     void add(const Piece& piece, double weight, const S& spectrum, double scale) {
         if (!(weight > 0.0)) return;
         double used = 0.0;  // of the piece
-        // Rounding may leave the last share short of its end or beyond it: it takes what is left.
-        while (filled_ + (weight - used) >= size_ && shares_.size() + 1 < count_) {
+        // Rounding may leave the last stratum short of its end or beyond it: it takes what is left.
+        while (filled_ + (weight - used) >= size_ && strata_.size() + 1 < count_) {
             const double part = size_ - filled_;
             take(piece, used, part, weight, spectrum, scale);
             used += part;
-            finish_share();
+            finish_stratum();
         }
         take(piece, used, weight - used, weight, spectrum, scale);
     }
 
-    /// The shares. pre: all pieces were added, nothing is added afterwards
-    std::vector<Share<Piece, S>> finish() {
+    /// The strata. pre: all pieces were added, nothing is added afterwards
+    std::vector<PowerStratum<Piece, S>> finish() {
         // Weights that add up to less than `total`, by rounding.
-        while (shares_.size() < count_) finish_share();
-        return std::move(shares_);
+        while (strata_.size() < count_) finish_stratum();
+        return std::move(strata_);
     }
 
 private:
@@ -82,24 +82,24 @@ private:
         power_.add(spectrum, scale * (part / weight));
         filled_ += part;
     }
-    void start_share() {
+    void start_stratum() {
         filled_ = 0.0;
         power_ = {};
-        at_ = static_cast<double>(numbers_(static_cast<std::uint32_t>(shares_.size()), 0));
+        at_ = static_cast<double>(sampler_(static_cast<std::uint32_t>(strata_.size()), 0));
     }
-    void finish_share() {
+    void finish_stratum() {
         current_.power = power_.value();
-        shares_.push_back(current_);
-        start_share();
+        strata_.push_back(current_);
+        start_stratum();
     }
 
     static constexpr double largest_below_one = 1.0 - 0x1p-53;
 
     double size_;
     std::size_t count_;
-    const Numbers& numbers_;
-    std::vector<Share<Piece, S>> shares_;
-    Share<Piece, S> current_;
+    const Sequence& sampler_;
+    std::vector<PowerStratum<Piece, S>> strata_;
+    PowerStratum<Piece, S> current_;
     SpectrumSum<S> power_;
     double filled_ = 0.0;
     double at_ = 0.0;

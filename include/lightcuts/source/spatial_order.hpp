@@ -13,9 +13,9 @@ namespace lightcuts::detail {
 
 /// An order of points in which consecutive ones lie close together: boxes are halved across their longest side, and
 /// the half that lies closer to the last point goes first. cost: O(N log N)
-class PointWalk {
+class SpatialOrder {
 public:
-    explicit PointWalk(std::span<const glm::dvec3> points) : points_(points) { order_.reserve(points.size()); }
+    explicit SpatialOrder(std::span<const glm::dvec3> points) : points_(points) { order_.reserve(points.size()); }
 
     /// Appends `members` to the order, which they are taken out of.
     void append(std::span<std::uint32_t> members) {
@@ -40,7 +40,7 @@ public:
         append(low_first ? members.first(low_count) : members.subspan(low_count));
         append(low_first ? members.subspan(low_count) : members.first(low_count));
     }
-    const std::vector<std::uint32_t>& order() const { return order_; }
+    const std::vector<std::uint32_t>& indices() const { return order_; }
 
 private:
     std::span<const glm::dvec3> points_;

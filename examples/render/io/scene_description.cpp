@@ -1,4 +1,4 @@
-#include "io/scene_sheet.hpp"
+#include "io/scene_description.hpp"
 
 #include <algorithm>
 #include <array>
@@ -84,9 +84,9 @@ struct Place {
     }
 };
 
-SheetCamera camera_of(const Place& place, std::size_t index) {
+DescribedCamera camera_of(const Place& place, std::size_t index) {
     place.require_only(camera_keys);
-    SheetCamera result;
+    DescribedCamera result;
     result.camera.name = std::to_string(index);
     result.camera.eye = place.at("eye").vector();
     result.camera.target = place.at("target").vector();
@@ -112,28 +112,28 @@ Json parse(const std::filesystem::path& path, const std::string& text) {
 
 }  // namespace
 
-SceneSheet read_scene_sheet(const std::filesystem::path& path, const FileSource& files) {
+SceneDescription read_scene_description(const std::filesystem::path& path, const FileSource& files) {
     const Json json = parse(path, files.read(path));
-    const Place sheet{path, "", json};
-    sheet.require_only(keys, notes);
-    if (json.contains("up_axis") && sheet.at("up_axis").text() != "+Y") {
-        sheet.at("up_axis").fail("only \"+Y\" is possible; turn the scene");
+    const Place description{path, "", json};
+    description.require_only(keys, notes);
+    if (json.contains("up_axis") && description.at("up_axis").text() != "+Y") {
+        description.at("up_axis").fail("only \"+Y\" is possible; turn the scene");
     }
-    SceneSheet result;
-    result.file = sheet.at("file").text();
-    const Place cameras = sheet.at("cameras");
+    SceneDescription result;
+    result.file = description.at("file").text();
+    const Place cameras = description.at("cameras");
     if (!cameras.value.is_array() || cameras.value.empty()) cameras.fail("expected a list of at least one camera");
     for (std::size_t i = 0; i < cameras.value.size(); ++i) result.cameras.push_back(camera_of(cameras.at(i), i));
     return result;
 }
 
-std::optional<SceneSheet> sheet_beside(const std::filesystem::path& scene_file) {
+std::optional<SceneDescription> description_beside(const std::filesystem::path& scene_file) {
     const std::filesystem::path path = scene_file.parent_path() / "scene.json";
     std::error_code ignored;
     if (!std::filesystem::exists(path, ignored)) return std::nullopt;
-    SceneSheet sheet = read_scene_sheet(path);
-    if (sheet.file != scene_file.filename().string()) return std::nullopt;
-    return sheet;
+    SceneDescription description = read_scene_description(path);
+    if (description.file != scene_file.filename().string()) return std::nullopt;
+    return description;
 }
 
 }  // namespace render

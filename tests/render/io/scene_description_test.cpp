@@ -3,7 +3,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <render/io/scene_sheet.hpp>
+#include <render/io/scene_description.hpp>
 
 #include "render/refusal.hpp"
 #include "render/temporary_folder.hpp"
@@ -13,7 +13,7 @@ namespace {
 const std::string camera = R"({"eye": [1, 2.5, 3], "target": [0, 0, -1], "up": [0, 1, 0], "vfov_deg": 40.5,
                                "resolution": [640, 400]})";
 
-std::string sheet(const std::string& rest) { return "{\n\"file\": \"room.glb\",\n" + rest + "}\n"; }
+std::string description(const std::string& rest) { return "{\n\"file\": \"room.glb\",\n" + rest + "}\n"; }
 
 /// `text` with the first `from` replaced.
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
@@ -22,12 +22,12 @@ std::string replaced(std::string text, const std::string& from, const std::strin
     return text.replace(at, from.size(), to);
 }
 
-TEST(SceneSheet, HasTheFileAndItsCameras) {
+TEST(SceneDescription, HasTheFileAndItsCameras) {
     const TemporaryFolder folder;
     const std::string second = replaced(camera, "640", "100");
-    folder.write("scene.json", sheet(R"("up_axis": "+Y", "notes": ["what", {"ever": 1}], "cameras": [)" + camera + "," +
-                                     second + "]"));
-    const auto read = render::sheet_beside(folder / "room.glb");
+    folder.write("scene.json", description(R"("up_axis": "+Y", "notes": ["what", {"ever": 1}], "cameras": [)" + camera +
+                                           "," + second + "]"));
+    const auto read = render::description_beside(folder / "room.glb");
     ASSERT_TRUE(read);
     EXPECT_EQ(read->file, "room.glb");
     ASSERT_EQ(read->cameras.size(), 2u);
@@ -40,27 +40,27 @@ TEST(SceneSheet, HasTheFileAndItsCameras) {
     EXPECT_EQ(read->cameras[1].camera.name, "1");
 }
 
-TEST(SceneSheet, IsAboutOneFile) {
+TEST(SceneDescription, IsAboutOneFile) {
     const TemporaryFolder folder;
-    EXPECT_FALSE(render::sheet_beside(folder / "room.glb"));
-    folder.write("scene.json", sheet("\"cameras\": [" + camera + "]"));
-    EXPECT_TRUE(render::sheet_beside(folder / "room.glb"));
-    EXPECT_FALSE(render::sheet_beside(folder / "other.glb"));
+    EXPECT_FALSE(render::description_beside(folder / "room.glb"));
+    folder.write("scene.json", description("\"cameras\": [" + camera + "]"));
+    EXPECT_TRUE(render::description_beside(folder / "room.glb"));
+    EXPECT_FALSE(render::description_beside(folder / "other.glb"));
 }
 
-TEST(SceneSheet, RefusesWithFileAndPlace) {
+TEST(SceneDescription, RefusesWithFileAndPlace) {
     const TemporaryFolder folder;
     const auto with = [](const std::string& from, const std::string& to) {
-        return sheet("\"cameras\": [" + camera + "," + replaced(camera, from, to) + "]");
+        return description("\"cameras\": [" + camera + "," + replaced(camera, from, to) + "]");
     };
     const std::vector<std::pair<std::string, std::string>> cases = {
-        {sheet("\"cameras\": [" + camera + "], \"lamps\": 3"), ": unknown key 'lamps'"},
-        {sheet("\"cameras\": []"), ": cameras: "},
-        {sheet("\"cameras\": 3"), ": cameras: "},
-        {sheet("\"cameras\": [3]"), ": cameras[0]: "},
-        {sheet("\"name\": \"room\""), ": 'cameras' is missing"},
-        {sheet("\"up_axis\": \"+Z\", \"cameras\": [" + camera + "]"), ": up_axis: "},
-        {replaced(sheet("\"cameras\": [" + camera + "]"), "\"room.glb\"", "7"), ": file: "},
+        {description("\"cameras\": [" + camera + "], \"lamps\": 3"), ": unknown key 'lamps'"},
+        {description("\"cameras\": []"), ": cameras: "},
+        {description("\"cameras\": 3"), ": cameras: "},
+        {description("\"cameras\": [3]"), ": cameras[0]: "},
+        {description("\"name\": \"room\""), ": 'cameras' is missing"},
+        {description("\"up_axis\": \"+Z\", \"cameras\": [" + camera + "]"), ": up_axis: "},
+        {replaced(description("\"cameras\": [" + camera + "]"), "\"room.glb\"", "7"), ": file: "},
         {with("\"eye\": [1, 2.5, 3]", "\"eye\": [1, 2.5]"), ": cameras[1].eye: expected three numbers"},
         {with("\"eye\": [1, 2.5, 3]", "\"eye\": [1, \"x\", 3]"), ": cameras[1].eye[1]: expected a finite number"},
         {with("\"eye\": [1, 2.5, 3]", "\"eye\": [1, 1e300, 3]"), ": cameras[1].eye[1]: expected a finite number"},
@@ -79,11 +79,12 @@ TEST(SceneSheet, RefusesWithFileAndPlace) {
     };
     for (const auto& [text, wanted] : cases) {
         const std::string path = folder.write("scene.json", text);
-        const std::string message = refusal([&] { render::read_scene_sheet(path); });
+        const std::string message = refusal([&] { render::read_scene_description(path); });
         EXPECT_EQ(message.rfind(path + wanted, 0), 0u) << message << "\nfor " << text;
     }
-    EXPECT_EQ(refusal([&] { render::read_scene_sheet(folder / "none.json"); }).rfind(folder / "none.json" + ": ", 0),
-              0u);
+    EXPECT_EQ(
+        refusal([&] { render::read_scene_description(folder / "none.json"); }).rfind(folder / "none.json" + ": ", 0),
+        0u);
 }
 
 }  // namespace

@@ -7,11 +7,11 @@
 
 namespace lightcuts {
 
-/// Where sources take their random numbers from: `numbers(index, dimension)` in [0, 1), always the same for the same
+/// Where sources take their random numbers from: `sampler(index, dimension)` in [0, 1), always the same for the same
 /// arguments. `index` counts lights or particles; dimensions 2k and 2k + 1 are used together.
 template <class N>
-concept NumberSource = requires(const N& numbers, std::uint32_t index, std::uint32_t dimension) {
-    { numbers(index, dimension) } -> std::convertible_to<double>;
+concept Sampler = requires(const N& sampler, std::uint32_t index, std::uint32_t dimension) {
+    { sampler(index, dimension) } -> std::convertible_to<double>;
 };
 
 namespace detail {
@@ -54,10 +54,10 @@ constexpr std::uint32_t sobol_second_reversed(std::uint32_t index) {
 
 }  // namespace detail
 
-/// Evenly spread numbers: each pair of dimensions is a scrambled and shuffled (0, 2)-sequence of its own
-/// [Kollig and Keller 2002], so that the first 2^k indices have one number in each 2^k-th of every dimension. Over
-/// seeds, each number is uniform. cost: about 10 ns
-struct LowDiscrepancy {
+/// Evenly spread numbers: each pair of dimensions is a copy of the first two dimensions of Sobol's sequence, scrambled
+/// and shuffled on its own [Owen 1995; Kollig and Keller 2002], so that the first 2^k indices have one number in each
+/// 2^k-th of every dimension. Over seeds, each number is uniform. cost: about 10 ns
+struct ScrambledSobol {
     std::uint64_t seed = 0;
 
     constexpr double operator()(std::uint32_t index, std::uint32_t dimension) const {
@@ -71,22 +71,22 @@ struct LowDiscrepancy {
 };
 
 /// Puts each light in the middle of its own share of the power (dimension 0 is always 1/2); the other dimensions are
-/// `LowDiscrepancy`. More even than random places where shares are irregular anyway, but the mean over seeds is no
+/// `ScrambledSobol`. More even than random places where shares are irregular anyway, but the mean over seeds is no
 /// longer that of the map or surface.
-struct CentredNumbers {
+struct CenteredSobol {
     std::uint64_t seed = 0;
 
     constexpr double operator()(std::uint32_t index, std::uint32_t dimension) const {
-        return dimension == 0 ? 0.5 : LowDiscrepancy{seed}(index, dimension);
+        return dimension == 0 ? 0.5 : ScrambledSobol{seed}(index, dimension);
     }
 };
 
 /// Independent numbers: a hash of (seed, index, dimension).
-struct IndependentNumbers {
+struct IndependentSampler {
     std::uint64_t seed = 0;
 
     constexpr double operator()(std::uint32_t index, std::uint32_t dimension) const {
-        return to_unit(hash_keys(seed, index, dimension));
+        return uniform01(hash_keys(seed, index, dimension));
     }
 };
 

@@ -17,8 +17,8 @@
 #include "../core/executor.hpp"
 #include "../core/invalid_input.hpp"
 #include "../light/oriented.hpp"
-#include "numbers.hpp"
 #include "particle_sources.hpp"
+#include "sampler.hpp"
 
 namespace lightcuts {
 
@@ -89,7 +89,8 @@ struct ParticleTally {
     std::uint64_t landed = 0;
 };
 
-/// Leaves what `power` makes at `hit` to a light, with a chance in proportion: on the side that was hit, or behind it.
+/// Leaves what `power` makes at `hit` to a light, with a probability in proportion: on the side that was hit, or behind
+/// it.
 template <class Scene, class Hit, Spectrum S>
 void leave_light(const Scene& scene, const Hit& hit, const S& power, double roulette,
                  std::vector<OrientedPointLight<S>>& lights) {
@@ -114,26 +115,26 @@ void leave_light(const Scene& scene, const Hit& hit, const S& power, double roul
 }
 
 /// Follows particle `index` and appends its lights.
-template <class Scene, class Emission, NumberSource Numbers>
-void follow(const Scene& scene, const Emission& emission, const Numbers& numbers, std::uint32_t index,
+template <class Scene, class Emission, Sampler Sequence>
+void follow(const Scene& scene, const Emission& emission, const Sequence& sampler, std::uint32_t index,
             std::uint32_t longest_path, ParticleTally<typename Emission::S>& tally) {
     using S = typename Emission::S;
-    // Together, as sources of numbers may share work among consecutive dimensions.
+    // Together, as samplers may share work among consecutive dimensions.
     const auto four_numbers = [&](std::uint32_t dimension) {
         std::array<double, 4> u;
-        for (std::uint32_t d = 0; d < 4; ++d) u[d] = static_cast<double>(numbers(index, dimension + d));
+        for (std::uint32_t d = 0; d < 4; ++d) u[d] = static_cast<double>(sampler(index, dimension + d));
         return u;
     };
     const std::array<double, 4> start = four_numbers(0);
     emission.emit_ray(start[0], {start[2], start[3]}, start[1], [&](const auto& light, const auto& emitted) {
         using L = std::remove_cvref_t<decltype(light)>;
         S power = emitted.power;
-        glm::vec3 direction(emitted.flight.direction);
-        auto hit = scene.intersect(glm::vec3(emitted.flight.origin), direction);
+        glm::vec3 direction(emitted.ray.direction);
+        auto hit = scene.intersect(glm::vec3(emitted.ray.origin), direction);
         if (!hit) return;
         ++tally.landed;
         if constexpr (FalloffLight<L>) {
-            const float distance = glm::distance(glm::vec3(emitted.flight.origin), to_vec3((*hit).position));
+            const float distance = glm::distance(glm::vec3(emitted.ray.origin), to_vec3((*hit).position));
             power = power * (falloff_of(light, distance) * distance * distance);
         }
         for (std::uint32_t bounce = 0; bounce < longest_path; ++bounce) {
@@ -159,8 +160,8 @@ void follow(const Scene& scene, const Emission& emission, const Numbers& numbers
 }
 
 /// Follows `count` particles from index `first` on. The result does not depend on the executor.
-template <class Scene, class Emission, NumberSource Numbers, Executor E>
-ParticleTally<typename Emission::S> follow_all(const Scene& scene, const Emission& emission, const Numbers& numbers,
+template <class Scene, class Emission, Sampler Sequence, Executor E>
+ParticleTally<typename Emission::S> follow_all(const Scene& scene, const Emission& emission, const Sequence& sampler,
                                                std::uint32_t first, std::uint32_t count, std::uint32_t longest_path,
                                                const E& execute) {
     using Tally = ParticleTally<typename Emission::S>;
@@ -170,7 +171,7 @@ ParticleTally<typename Emission::S> follow_all(const Scene& scene, const Emissio
         const auto begin = static_cast<std::uint32_t>(b) * block;
         const std::uint32_t end = (std::min)(begin + block, count);
         for (std::uint32_t i = begin; i < end; ++i) {
-            follow(scene, emission, numbers, first + i, longest_path, tallies[b]);
+            follow(scene, emission, sampler, first + i, longest_path, tallies[b]);
         }
     });
     Tally all;
@@ -198,10 +199,10 @@ ParticleTally<typename Emission::S> follow_all(const Scene& scene, const Emissio
 /// throws: invalid_input if no light emits, if one is negative or not finite, if all particles miss the scene, or none
 /// is reflected or let through diffusely. cost: about one intersection a light, and as many for particles that end.
 /// threads: the result does not depend on them.
-template <class Scene, Light... Ls, NumberSource Numbers = LowDiscrepancy, Executor E = Sequential>
+template <class Scene, Light... Ls, Sampler Sequence = ScrambledSobol, Executor E = Sequential>
     requires ParticleScene<Scene, typename ParticleSources<Ls...>::spectrum>
 auto virtual_lights(const Scene& scene, const ParticleSources<Ls...>& sources, const ParticleOptions& options = {},
-                    const Numbers& numbers = {}, const E& execute = {}) {
+                    const Sequence& sampler = {}, const E& execute = {}) {
     using S = typename ParticleSources<Ls...>::spectrum;
     static_assert(
         TransmissiveParticleScene<Scene, S> ||
@@ -226,7 +227,7 @@ auto virtual_lights(const Scene& scene, const ParticleSources<Ls...>& sources, c
     const auto least_pilots = static_cast<std::uint32_t>(std::clamp<std::size_t>(options.lights, 1024, 16384));
     std::uint64_t followed = 0, landed = 0, left = 0;
     for (std::uint32_t count = least_pilots; left == 0 && followed < most_pilots; count *= 2) {
-        const auto tally = detail::follow_all(scene, emission, numbers, pilots + static_cast<std::uint32_t>(followed),
+        const auto tally = detail::follow_all(scene, emission, sampler, pilots + static_cast<std::uint32_t>(followed),
                                               count, options.longest_path, execute);
         followed += count;
         landed += tally.landed;
@@ -245,7 +246,7 @@ auto virtual_lights(const Scene& scene, const ParticleSources<Ls...>& sources, c
                           static_cast<double>(left);
     const auto particles = static_cast<std::uint32_t>(std::clamp(wanted + 0.5, 1.0, 0x1p31 - 1.0));
 
-    auto tally = detail::follow_all(scene, emission, numbers, 0, particles, options.longest_path, execute);
+    auto tally = detail::follow_all(scene, emission, sampler, 0, particles, options.longest_path, execute);
     const double share = emission.power() / static_cast<double>(particles);
     for (auto& light : tally.lights) {
         light.intensity = make_spectrum<S>(
