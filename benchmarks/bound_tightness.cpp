@@ -8,6 +8,7 @@
 #include <glm/common.hpp>
 #include <lightcuts/material/terms.hpp>
 
+#include "timing.hpp"
 #include "workload.hpp"
 
 namespace benchmark {

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "figures.hpp"
+#include "timing.hpp"
 #include "workload.hpp"
 
 namespace {

@@ -12,7 +12,8 @@
 #include "crossing.hpp"
 #include "error.hpp"
 #include "figures.hpp"
-#include "picture.hpp"
+#include "io/picture.hpp"
+#include "timing.hpp"
 #include "workload.hpp"
 
 namespace {

@@ -6,8 +6,8 @@
 
 #include <lightcuts/core/invalid_input.hpp>
 
-#include "options.hpp"
-#include "output_file.hpp"
+#include "io/escape.hpp"
+#include "io/output_file.hpp"
 
 namespace benchmark {
 

@@ -9,6 +9,7 @@
 
 #include "figures.hpp"
 #include "recording_oracle.hpp"
+#include "timing.hpp"
 #include "workload.hpp"
 
 namespace {

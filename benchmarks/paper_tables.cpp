@@ -18,6 +18,7 @@
 #include "cut_parts.hpp"
 #include "figures.hpp"
 #include "method_contest.hpp"
+#include "timing.hpp"
 
 namespace {
 

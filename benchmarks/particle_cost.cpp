@@ -8,13 +8,14 @@
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>
 
-#include "embree.hpp"
-#include "particle_scene.hpp"
+#include "lights/particle_scene.hpp"
+#include "lights/spheres.hpp"
 #include "prepare_scene.hpp"
 #include "prepared_scene.hpp"
+#include "rays/embree.hpp"
 #include "scene_options.hpp"
-#include "spheres.hpp"
 #include "tbb_executor.hpp"
+#include "timing.hpp"
 #include "workload.hpp"
 
 namespace benchmark {
@@ -36,15 +37,15 @@ class RecordingScene {
 public:
     RecordingScene(const render::ParticleScene& scene, Recording& recording) : scene_(scene), recording_(recording) {}
 
-    std::optional<render::ParticleScene::Meeting> intersect(const glm::vec3& origin, const glm::vec3& direction) const {
+    std::optional<render::ParticleScene::Hit> intersect(const glm::vec3& origin, const glm::vec3& direction) const {
         recording_.rays.push_back({origin, direction});
         return scene_.intersect(origin, direction);
     }
-    glm::vec3 diffuse_albedo(const render::ParticleScene::Meeting& met) const { return scene_.diffuse_albedo(met); }
-    glm::vec3 diffuse_transmittance(const render::ParticleScene::Meeting& met) const {
+    glm::vec3 diffuse_albedo(const render::ParticleScene::Hit& met) const { return scene_.diffuse_albedo(met); }
+    glm::vec3 diffuse_transmittance(const render::ParticleScene::Hit& met) const {
         return scene_.diffuse_transmittance(met);
     }
-    lightcuts::ScatteredParticle<> scatter(const render::ParticleScene::Meeting& met, const glm::vec3& direction,
+    lightcuts::ScatteredParticle<> scatter(const render::ParticleScene::Hit& met, const glm::vec3& direction,
                                            const glm::vec3& u) const {
         return scene_.scatter(met, direction, u);
     }
@@ -127,10 +128,10 @@ ParticleCost measure_particles(const ParticleCostOptions& options) {
     const render::ParticleScene surfaces(scene, rays, render::shade_of(lighting));
     const lightcuts::ParticleSources sources(scene.omni, scene.oriented, scene.spots, scene.directional, shells);
     const lightcuts::ParticleOptions wanted{.lights = options.lights};
-    const lightcuts::LowDiscrepancy numbers{lighting.seed};
+    const lightcuts::ScrambledSobol sampler{lighting.seed};
 
     Recording recording;
-    const auto recorded = lightcuts::virtual_lights(RecordingScene(surfaces, recording), sources, wanted, numbers,
+    const auto recorded = lightcuts::virtual_lights(RecordingScene(surfaces, recording), sources, wanted, sampler,
                                                     RecordingExecutor{recording});
 
     ParticleCost cost;
@@ -144,7 +145,7 @@ ParticleCost measure_particles(const ParticleCostOptions& options) {
         for (int run = 0; run < options.runs; ++run) {
             const Lap traced = lap([&] { replay(rays.embree_scene(), recording); });
             const Lap made = lap([&] {
-                const auto lights = lightcuts::virtual_lights(surfaces, sources, wanted, numbers,
+                const auto lights = lightcuts::virtual_lights(surfaces, sources, wanted, sampler,
                                                               render::TbbExecutor{});
                 cost.virtual_lights = lights.lights.size();
                 cost.particles = lights.particles;

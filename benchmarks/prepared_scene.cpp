@@ -2,9 +2,9 @@
 
 #include <lightcuts/core/invalid_input.hpp>
 
-#include "indirect.hpp"
+#include "lights/indirect.hpp"
 #include "prepare_scene.hpp"
-#include "ray_scene.hpp"
+#include "rays/ray_scene.hpp"
 
 namespace benchmark {
 

@@ -15,6 +15,7 @@
 #include "recording_oracle.hpp"
 #include "render_loop.hpp"
 #include "shader.hpp"
+#include "timing.hpp"
 #include "view.hpp"
 #include "workload.hpp"
 
@@ -109,7 +110,7 @@ private:
         }));
         if (hits == 0) std::puts("(nothing is hit)");
 
-        const render::SurfaceFinder surfaces(work_.scene(), way.rays, render::shade_of(options_));
+        const render::EyePathTracer surfaces(work_.scene(), way.rays, render::shade_of(options_));
         const auto shader = render::make_shader(work_.scene(), way.rays, options_);
         way.picture.push_back(seconds([&] { render_picture(view_, surfaces, *shader, options_); }));
     }

@@ -6,7 +6,7 @@
 
 #include <lightcuts/visibility/query.hpp>
 
-#include "oracle.hpp"
+#include "rays/oracle.hpp"
 
 namespace benchmark {
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "timing.hpp"
 #include "workload.hpp"
 
 namespace benchmark {

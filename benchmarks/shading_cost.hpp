@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "options.hpp"
-#include "ray_scene.hpp"
+#include "rays/ray_scene.hpp"
 #include "scene.hpp"
 #include "shader.hpp"
-#include "surface.hpp"
+#include "surfaces/surface.hpp"
 
 namespace benchmark {
 

@@ -10,7 +10,7 @@
 #include <lightcuts/source/area.hpp>
 #include <lightcuts/source/environment.hpp>
 
-#include "load_scene.hpp"
+#include "io/load_scene.hpp"
 
 namespace benchmark {
 
@@ -57,7 +57,7 @@ void surround(render::Scene& scene) {
 
 void light_by_map(render::Scene& scene, std::size_t count) {
     scene.directional = lightcuts::environment_lights(scene.background.environment->map(), count,
-                                                      lightcuts::CentredNumbers{1});
+                                                      lightcuts::CenteredSobol{1});
     scene.environment_lights = scene.directional.size();
 }
 

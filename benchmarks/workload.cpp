@@ -1,7 +1,5 @@
 #include "workload.hpp"
 
-#include <algorithm>
-
 #include <lightcuts/core/invalid_input.hpp>
 
 #include "prepare_scene.hpp"
@@ -17,13 +15,13 @@ std::vector<render::SurfacePoint> points_seen(const render::Scene& scene, const 
     constexpr int tile_side = 16;  // the renderer's
     if (scene.cameras.empty()) throw lightcuts::invalid_input(scene.name + ": has no camera; choose another scene");
     const render::View view(scene.cameras.front(), scene.origin, width, height);
-    const render::SurfaceFinder finder(scene, rays, shade);
+    const render::EyePathTracer tracer(scene, rays, shade);
     std::vector<render::SurfacePoint> points;
     for (const render::Tile& tile : render::tiles_of(width, height, tile_side)) {
         for (int y = tile.y0; y < tile.y1; ++y) {
             for (int x = tile.x0; x < tile.x1; ++x) {
                 const auto pixel = static_cast<std::uint32_t>(y * width + x);
-                finder.follow(view.ray(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f), pixel, 0, points);
+                tracer.follow(view.ray(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f), pixel, 0, points);
             }
         }
     }
@@ -42,11 +40,6 @@ Workload::Workload(const std::string& scene, int width, int height)
         receivers_.push_back(
             {p.position, render::SurfaceMaterial(p), p.ray_origin, static_cast<std::uint32_t>(receivers_.size())});
     }
-}
-
-double median(std::vector<double> values) {
-    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
-    return values[values.size() / 2];
 }
 
 }  // namespace benchmark

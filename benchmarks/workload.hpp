@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <ctime>
 #include <memory>
 #include <span>
 #include <string>
@@ -11,13 +10,13 @@
 #include <lightcuts/cut/lightcut.hpp>
 #include <lightcuts/estimate/exhaustive.hpp>
 
+#include "lights/scene_lights.hpp"
 #include "options.hpp"
-#include "oracle.hpp"
-#include "ray_scene.hpp"
+#include "rays/oracle.hpp"
+#include "rays/ray_scene.hpp"
 #include "scene.hpp"
-#include "scene_lights.hpp"
-#include "surface.hpp"
-#include "surface_material.hpp"
+#include "surfaces/surface.hpp"
+#include "surfaces/surface_material.hpp"
 
 namespace benchmark {
 
@@ -79,23 +78,5 @@ glm::vec3 exhaustive_sum(const Workload& work, const Receiver& receiver, const O
         return lightcuts::exhaustive(forest, receiver, oracle, scratch, work.clamp()).radiance;
     });
 }
-
-/// Processor seconds of this thread: on a shared machine the clock on the wall measures the neighbours.
-inline double processor_seconds() {
-    timespec now{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-/// Processor seconds that `f()` takes on this thread.
-template <class F>
-double seconds(F&& f) {
-    const double start = processor_seconds();
-    f();
-    return processor_seconds() - start;
-}
-
-/// The middle of an odd number of values.
-double median(std::vector<double> values);
 
 }  // namespace benchmark

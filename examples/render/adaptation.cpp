@@ -30,7 +30,7 @@ double geometric_mean(std::span<const double> luminances) {
     return std::exp(logarithms / count);
 }
 
-float measure_adaptation(const View& view, const SurfaceFinder& surfaces, const Shader& shader) {
+float measure_adaptation(const View& view, const EyePathTracer& surfaces, const Shader& shader) {
     const int columns = std::min(largest_grid, view.width());
     const int rows = std::min(largest_grid, view.height());
     std::vector<std::vector<double>> by_row(static_cast<std::size_t>(rows));

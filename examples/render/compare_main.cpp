@@ -10,14 +10,14 @@
 #include <nlohmann/json.hpp>
 
 #include "error.hpp"
-#include "escape.hpp"
 #include "false_color.hpp"
 #include "interrupt.hpp"
+#include "io/escape.hpp"
+#include "io/output_file.hpp"
+#include "io/picture.hpp"
+#include "io/standard_streams.hpp"
 #include "memory.hpp"
 #include "options.hpp"
-#include "output_file.hpp"
-#include "picture.hpp"
-#include "standard_streams.hpp"
 #include "statistics.hpp"
 
 namespace {

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "picture.hpp"
+#include "io/picture.hpp"
 
 namespace render {
 

@@ -6,8 +6,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "content_hash.hpp"
-#include "escape.hpp"
+#include "io/content_hash.hpp"
+#include "io/escape.hpp"
 
 namespace render {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "options.hpp"
-#include "ray_scene.hpp"
+#include "rays/ray_scene.hpp"
 #include "scene.hpp"
 
 namespace render {

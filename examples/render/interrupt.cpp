@@ -6,7 +6,7 @@
 #include <signal.h>
 #include <unistd.h>
 
-#include "temporary_file.hpp"
+#include "io/temporary_file.hpp"
 
 namespace render {
 

@@ -11,26 +11,26 @@
 
 #include "adaptation.hpp"
 #include "error.hpp"
-#include "escape.hpp"
 #include "fingerprint.hpp"
-#include "indirect.hpp"
 #include "interrupt.hpp"
-#include "load_scene.hpp"
+#include "io/escape.hpp"
+#include "io/load_scene.hpp"
+#include "io/outputs.hpp"
+#include "io/picture.hpp"
+#include "io/resume_file.hpp"
+#include "io/standard_streams.hpp"
+#include "io/validate.hpp"
+#include "lights/indirect.hpp"
 #include "memory.hpp"
 #include "options.hpp"
-#include "outputs.hpp"
-#include "picture.hpp"
 #include "prepare_scene.hpp"
 #include "program.hpp"
-#include "ray_scene.hpp"
-#include "ray_tracer.hpp"
+#include "rays/ray_scene.hpp"
+#include "rays/ray_tracer.hpp"
 #include "render_loop.hpp"
-#include "resume_file.hpp"
 #include "shader.hpp"
-#include "standard_streams.hpp"
 #include "statistics.hpp"
-#include "surface.hpp"
-#include "validate.hpp"
+#include "surfaces/surface.hpp"
 #include "view.hpp"
 
 namespace {
@@ -202,7 +202,7 @@ ExitStatus render_scene(Options options) {
         const auto shader = make_shader(scene, rays, options);
         report.seconds.tree = watch.lap();
         const View view(camera, scene.origin, options.width, options.height);
-        const SurfaceFinder surfaces(scene, rays, shade);
+        const EyePathTracer surfaces(scene, rays, shade);
         report.adaptation = options.adaptation ? *options.adaptation : measure_adaptation(view, surfaces, *shader);
         shader->adapt(report.adaptation);
         const Fingerprint fingerprint = fingerprint_of(options, scene, camera, rays, program_build());

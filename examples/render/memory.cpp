@@ -11,7 +11,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include "temporary_file.hpp"
+#include "io/temporary_file.hpp"
 
 namespace render {
 

@@ -11,7 +11,8 @@
 #include <CLI/CLI.hpp>
 #include <glm/geometric.hpp>
 
-#include "ray_tracer.hpp"
+#include "io/escape.hpp"
+#include "rays/ray_tracer.hpp"
 
 namespace render {
 
@@ -80,13 +81,13 @@ glm::dvec3 vector_of(const std::string& option, const std::string& text) {
 
 void set_sun(Options& options, const std::string& text) {
     const std::vector<std::string> parts = split(text, ',');
-    const auto elevation = parts.size() == 2 ? to_number<float>(parts[0]) : std::nullopt;
-    const auto azimuth = parts.size() == 2 ? to_number<float>(parts[1]) : std::nullopt;
-    if (!elevation || !azimuth || *elevation < 0.0f || *elevation > 90.0f) {
+    const auto elevation = parts.size() == 2 ? to_number<double>(parts[0]) : std::nullopt;
+    const auto azimuth = parts.size() == 2 ? to_number<double>(parts[1]) : std::nullopt;
+    if (!elevation || !azimuth || *elevation < 0.0 || *elevation > 90.0) {
         refuse("--sun-sky", text,
                "ELEVATION,AZIMUTH in degrees; the elevation from 0 to 90, the sky ends at the horizon");
     }
-    options.sun_sky = {*elevation, *azimuth};
+    options.sun_sky = {.elevation = *elevation, .azimuth = *azimuth};
 }
 
 void set_size(Options& options, const std::string& text) {
@@ -185,20 +186,6 @@ std::string listed(const std::vector<std::string>& words) {
     std::string text;
     for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
     return text;
-}
-
-std::string one_line(const std::string& text) {
-    std::string line;
-    for (const char c : text) {
-        const bool space = c == '\n' || c == '\r' || c == '\t' || c == ' ';
-        if (!space) {
-            line += c;
-        } else if (!line.empty() && line.back() != ' ') {
-            line += ' ';
-        }
-    }
-    while (!line.empty() && line.back() == ' ') line.pop_back();
-    return line;
 }
 
 Options parse_options(int argc, const char* const* argv) {

@@ -9,6 +9,7 @@
 
 #include <glm/vec3.hpp>
 #include <lightcuts/cut/clamp.hpp>
+#include <lightcuts/source/sun_sky.hpp>
 
 namespace render {
 
@@ -16,12 +17,6 @@ namespace render {
 class usage_error : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
-};
-
-/// Degrees. `azimuth`: from +z towards +x.
-struct SunPosition {
-    float elevation = 0;
-    float azimuth = 0;
 };
 
 /// The renderer's command line with its defaults.
@@ -60,8 +55,8 @@ struct Options {
     std::uint32_t env_lights = 3000;           ///< that stand for it; 0: it is only seen
     float env_scale = 1.0f;                    ///< of its radiance
     float env_rotate = 0.0f;                   ///< degrees, counter-clockwise about +y seen from above
-    std::optional<SunPosition> sun_sky;
-    float turbidity = 3.0f;
+    std::optional<lightcuts::SunPosition> sun_sky;
+    float turbidity = 3.0f;           ///< of the air, with `sun_sky`, whose own does not count
     std::uint32_t sky_lights = 5000;  ///< that stand for the sky; 0: it is only seen
     float ground = 0.2f;              ///< albedo of what is below the horizon, with `sun_sky`
     std::uint32_t indirect = 0;       ///< about so many virtual lights; 0: direct light only
@@ -97,8 +92,5 @@ Options parse_options(int argc, const char* const* argv);
 
 /// The words separated by commas.
 std::string listed(const std::vector<std::string>& words);
-
-/// The words as one line; for messages of others, which may have several.
-std::string one_line(const std::string& text);
 
 }  // namespace render

@@ -1,12 +1,12 @@
 #include "prepare_scene.hpp"
 
-#include "emitters.hpp"
-#include "indirect.hpp"
-#include "light_table.hpp"
-#include "load_scene.hpp"
-#include "spheres.hpp"
-#include "surroundings.hpp"
-#include "validate.hpp"
+#include "io/light_table.hpp"
+#include "io/load_scene.hpp"
+#include "io/validate.hpp"
+#include "lights/emitters.hpp"
+#include "lights/indirect.hpp"
+#include "lights/spheres.hpp"
+#include "lights/surroundings.hpp"
 
 namespace render {
 

@@ -2,7 +2,7 @@
 
 #include "options.hpp"
 #include "scene.hpp"
-#include "surface_lobes.hpp"
+#include "surfaces/surface_lobes.hpp"
 
 namespace render {
 

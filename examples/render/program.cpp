@@ -3,8 +3,8 @@
 #include <charconv>
 #include <exception>
 
-#include "content_hash.hpp"
-#include "text_file.hpp"
+#include "io/content_hash.hpp"
+#include "io/text_file.hpp"
 
 namespace render {
 

@@ -10,8 +10,8 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include "interrupt.hpp"
+#include "io/resume_file.hpp"
 #include "progress.hpp"
-#include "resume_file.hpp"
 #include "tile_order.hpp"
 
 namespace render {
@@ -43,7 +43,7 @@ struct Workspace {
 
 class TileRenderer {
 public:
-    TileRenderer(const View& view, const SurfaceFinder& surfaces, const Shader& shader, const Options& options,
+    TileRenderer(const View& view, const EyePathTracer& surfaces, const Shader& shader, const Options& options,
                  Picture& picture)
         : view_(view), surfaces_(surfaces), shader_(shader), options_(options), picture_(picture) {}
 
@@ -155,7 +155,7 @@ private:
     }
 
     const View& view_;
-    const SurfaceFinder& surfaces_;
+    const EyePathTracer& surfaces_;
     const Shader& shader_;
     const Options& options_;
     Picture& picture_;
@@ -225,7 +225,7 @@ private:
 
 }  // namespace
 
-Rendering render_picture(const View& view, const SurfaceFinder& surfaces, const Shader& shader, const Options& options,
+Rendering render_picture(const View& view, const EyePathTracer& surfaces, const Shader& shader, const Options& options,
                          ResumeFile* resume_file) {
     Rendering rendering;
     rendering.picture = Picture(view.width(), view.height());

@@ -17,9 +17,9 @@
 #include <lightcuts/light/spot.hpp>
 #include <lightcuts/source/sphere.hpp>
 
-#include "background.hpp"
 #include "io/left_out.hpp"
-#include "lighting.hpp"
+#include "lights/background.hpp"
+#include "lights/lighting.hpp"
 
 namespace render {
 

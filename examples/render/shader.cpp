@@ -14,9 +14,9 @@
 #include <lightcuts/estimate/ward.hpp>
 
 #include "interrupt.hpp"
-#include "oracle.hpp"
-#include "scene_lights.hpp"
-#include "surface_material.hpp"
+#include "lights/scene_lights.hpp"
+#include "rays/oracle.hpp"
+#include "surfaces/surface_material.hpp"
 
 namespace render {
 

@@ -10,9 +10,9 @@
 #include <glm/vec3.hpp>
 
 #include "options.hpp"
-#include "ray_scene.hpp"
+#include "rays/ray_scene.hpp"
 #include "scene.hpp"
-#include "surface.hpp"
+#include "surfaces/surface.hpp"
 
 namespace render {
 

@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "escape.hpp"
+#include "io/escape.hpp"
 #include "memory.hpp"
 
 namespace render {
@@ -57,8 +57,7 @@ Json options_json(const RunReport& report) {
     json["env_lights"] = o.env_lights;
     json["env_scale"] = as_written(o.env_scale);
     json["env_rotate"] = as_written(o.env_rotate);
-    json["sun_sky"] = o.sun_sky ? Json{as_written(o.sun_sky->elevation), as_written(o.sun_sky->azimuth)}
-                                : Json(nullptr);
+    json["sun_sky"] = o.sun_sky ? Json{o.sun_sky->elevation, o.sun_sky->azimuth} : Json(nullptr);
     json["turbidity"] = as_written(o.turbidity);
     json["sky_lights"] = o.sky_lights;
     json["ground"] = as_written(o.ground);

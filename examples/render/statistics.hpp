@@ -10,7 +10,7 @@
 
 #include "error.hpp"
 #include "options.hpp"
-#include "ray_tracer.hpp"
+#include "rays/ray_tracer.hpp"
 #include "render_loop.hpp"
 #include "scene.hpp"
 

@@ -42,8 +42,8 @@ glm::vec2 pixel_offset(std::uint64_t seed, std::uint32_t pixel, int sample, int 
     // The additive recurrence of the plastic number covers the square evenly for any number of samples.
     constexpr double step_x = 0.7548776662466927;
     constexpr double step_y = 0.5698402909980532;
-    const double x = lightcuts::to_unit(lightcuts::hash_keys(seed, pixel, 0)) + step_x * sample;
-    const double y = lightcuts::to_unit(lightcuts::hash_keys(seed, pixel, 1)) + step_y * sample;
+    const double x = lightcuts::uniform01(lightcuts::hash_keys(seed, pixel, 0)) + step_x * sample;
+    const double y = lightcuts::uniform01(lightcuts::hash_keys(seed, pixel, 1)) + step_y * sample;
     return {static_cast<float>(x - std::floor(x)), static_cast<float>(y - std::floor(y))};
 }
 

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include <lightcuts/lightcuts.hpp>
-#include <lightcuts/source/particles.hpp>
+#include <lightcuts/source/virtual_lights.hpp>
 
 struct Blade {
     struct Hit {

@@ -16,7 +16,7 @@ class Draw {
 public:
     explicit Draw(std::uint64_t seed) : seed_(seed) {}
 
-    double unit() { return lightcuts::to_unit(bits()); }
+    double unit() { return lightcuts::uniform01(bits()); }
     double uniform(double a, double b) { return a + (b - a) * unit(); }
     int below(int n) { return static_cast<int>(bits() % static_cast<std::uint64_t>(n)); }
     bool chance(double p) { return unit() < p; }

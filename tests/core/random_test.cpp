@@ -11,12 +11,12 @@ namespace {
 
 using lightcuts::hash_keys;
 using lightcuts::mix_bits;
-using lightcuts::to_unit;
+using lightcuts::uniform01;
 
 static_assert(hash_keys(1, 2, 3) == hash_keys(1, 2, 3));
 static_assert(hash_keys(1, 2, 3) != hash_keys(1, 3, 2));
-static_assert(to_unit(0) == 0.0);
-static_assert(to_unit(~std::uint64_t{0}) < 1.0);
+static_assert(uniform01(0) == 0.0);
+static_assert(uniform01(~std::uint64_t{0}) < 1.0);
 
 TEST(Random, EveryInputBitFlipsAboutHalfOfTheOutput) {
     for (int bit = 0; bit < 64; ++bit) {
@@ -50,7 +50,7 @@ TEST(Random, NumbersAreUniformAlongEveryKey) {
             const std::uint64_t h = along == 0   ? hash_keys(i, 1, 2)
                                     : along == 1 ? hash_keys(1, i, 2)
                                                  : hash_keys(1, 2, i);
-            const double u = to_unit(h);
+            const double u = uniform01(h);
             ASSERT_GE(u, 0.0);
             ASSERT_LT(u, 1.0);
             ++count[static_cast<std::size_t>(u * 64.0)];

@@ -44,7 +44,7 @@ struct Toy {
     void split(const node& n, ReusableList<node>& out) {
         splits.push_back(n.index);
         for (const std::uint32_t child : {2 * n.index + root_count_(), 2 * n.index + root_count_() + 1}) {
-            out.append({child, n.priority * (0.3 + 0.5 * to_unit(hash_keys(seed, child)))});
+            out.append({child, n.priority * (0.3 + 0.5 * uniform01(hash_keys(seed, child)))});
         }
     }
     bool precedes(const node& a, const node& b) const { return a.index < b.index; }
@@ -413,7 +413,7 @@ struct Lazy {
         splits.push_back(n.index);
         for (std::uint32_t k = 0; k < child_count(n); ++k) {
             const std::uint32_t child = 7 * n.index + k + 1;
-            out.append({child, n.priority * (0.2 + 0.4 * to_unit(hash_keys(seed, child, 1)))});
+            out.append({child, n.priority * (0.2 + 0.4 * uniform01(hash_keys(seed, child, 1)))});
         }
     }
     bool precedes(const node& a, const node& b) const { return a.index < b.index; }
@@ -477,7 +477,7 @@ struct ProductGraph {
     double ratio = 0.02;
 
     static double left(std::uint32_t i) { return i % 16 < 8 ? 0.0 : 1.0 / (1.0 + i); }
-    static double right(std::uint32_t i) { return to_unit(hash_keys(5, i)); }
+    static double right(std::uint32_t i) { return uniform01(hash_keys(5, i)); }
     template <class F>
     static double largest(std::uint32_t begin, std::uint32_t end, F f) {
         double most = 0.0;

@@ -110,10 +110,10 @@ TEST(SampleLight, CanDrawWhateverCanContribute) {
     for (const auto& receiver : room.glossy_receivers(20)) {
         const auto probabilities = probabilities_of(forest, receiver);
         double sum = 0.0;
-        const auto expect = [&](const auto& lights, const auto& chances) {
+        const auto expect = [&](const auto& lights, const auto& of_lights) {
             for (std::size_t i = 0; i < lights.size(); ++i) {
-                sum += chances[i];
-                if (!is_black(unshadowed_terms(receiver, lights[i]))) { EXPECT_GT(chances[i], 0.0); }
+                sum += of_lights[i];
+                if (!is_black(unshadowed_terms(receiver, lights[i]))) { EXPECT_GT(of_lights[i], 0.0); }
             }
         };
         expect(oriented, probabilities[0]);

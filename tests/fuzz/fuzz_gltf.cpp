@@ -3,7 +3,7 @@
 #include <map>
 
 #include <render/io/load_gltf.hpp>
-#include <render/validate.hpp>
+#include <render/io/validate.hpp>
 
 #include "fuzz_target.hpp"
 

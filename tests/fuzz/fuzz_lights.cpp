@@ -2,7 +2,7 @@
 
 #include <map>
 
-#include <render/light_table.hpp>
+#include <render/io/light_table.hpp>
 
 #include "fuzz_target.hpp"
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include <render/io/load_obj.hpp>
-#include <render/validate.hpp>
+#include <render/io/validate.hpp>
 
 #include "fuzz_target.hpp"
 

@@ -1,6 +1,6 @@
 // An image as a texture: PNG, JPEG, TGA, BMP, Radiance or OpenEXR.
 
-#include <render/texture.hpp>
+#include <render/surfaces/texture.hpp>
 
 #include "fuzz_target.hpp"
 

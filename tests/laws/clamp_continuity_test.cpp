@@ -199,7 +199,7 @@ void expect_error_within_bound(Random& random, int& bounded, int& unequal) {
     const double seen = random.unit();
     const auto oracle = [&](const auto&, const Virtual& light) {
         const auto bits = static_cast<std::uint64_t>(static_cast<std::int64_t>(light.position.x * 1e6f));
-        return to_unit(hash_keys(7, bits)) < seen ? 1.0f : 0.0f;
+        return uniform01(hash_keys(7, bits)) < seen ? 1.0f : 0.0f;
     };
     const LightTree tree(lights, {.representatives = random.chance(0.5) ? 1u : 4u});
     const LightcutOptions options{

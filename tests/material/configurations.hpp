@@ -18,7 +18,7 @@ public:
 
     std::uint64_t bits() { return lightcuts::mix_bits(state_++); }
     int below(int n) { return static_cast<int>(bits() % static_cast<std::uint64_t>(n)); }
-    double uniform(double lo = 0.0, double hi = 1.0) { return lo + (hi - lo) * lightcuts::to_unit(bits()); }
+    double uniform(double lo = 0.0, double hi = 1.0) { return lo + (hi - lo) * lightcuts::uniform01(bits()); }
     /// Uniform in the logarithm.
     double magnitude(double lo, double hi) { return lo * std::exp(uniform() * std::log(hi / lo)); }
     glm::dvec3 cube() { return {uniform(-1.0, 1.0), uniform(-1.0, 1.0), uniform(-1.0, 1.0)}; }

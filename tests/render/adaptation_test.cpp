@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 #include <render/adaptation.hpp>
-#include <render/picture.hpp>
+#include <render/io/picture.hpp>
 
 #include "programs.hpp"
 

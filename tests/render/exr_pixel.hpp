@@ -3,7 +3,7 @@
 #include <string>
 
 #include <glm/vec4.hpp>
-#include <render/picture.hpp>
+#include <render/io/picture.hpp>
 
 #include "temporary_folder.hpp"
 

@@ -2,8 +2,8 @@
 
 #include <render/io/gltf_writer.hpp>
 #include <render/io/load_gltf.hpp>
+#include <render/io/validate.hpp>
 #include <render/scene.hpp>
-#include <render/validate.hpp>
 
 /// Makes glTF files in memory, and reads them.
 class GltfBuilder : public render::GltfWriter {

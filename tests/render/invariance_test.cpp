@@ -4,7 +4,7 @@
 #include <string>
 
 #include <gtest/gtest.h>
-#include <render/picture.hpp>
+#include <render/io/picture.hpp>
 
 #include "programs.hpp"
 

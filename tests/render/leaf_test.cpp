@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
-#include <render/indirect.hpp>
-#include <render/picture.hpp>
+#include <render/io/picture.hpp>
+#include <render/lights/indirect.hpp>
 #include <render/shader.hpp>
 
 #include "programs.hpp"
@@ -85,7 +85,7 @@ TEST(Leaf, ReflectsWhatItDoesNotTransmitByItsTextures) {
     const RayScene rays(scene);
     std::vector<SurfacePoint> points;
     const render::EyeRay down{{0, 1, 0}, {0, -1, 0}};
-    render::SurfaceFinder(scene, rays, Shade::full).follow(down, 0, 0, points);
+    render::EyePathTracer(scene, rays, Shade::full).follow(down, 0, 0, points);
     ASSERT_EQ(points.size(), 1u);
     const auto expect = [](const glm::vec3& a, const glm::vec3& b) {
         for (int c = 0; c < 3; ++c) EXPECT_FLOAT_EQ(a[c], b[c]);
@@ -93,7 +93,7 @@ TEST(Leaf, ReflectsWhatItDoesNotTransmitByItsTextures) {
     expect(points[0].transmitted, 0.5f * 0.25f * 0.4f * glm::vec3(0.5f, 1.0f, 0.25f));
     expect(points[0].diffuse, 0.5f * 0.75f * glm::vec3(0.8f));
     points.clear();
-    render::SurfaceFinder(scene, rays, Shade::diffuse).follow(down, 0, 0, points);
+    render::EyePathTracer(scene, rays, Shade::diffuse).follow(down, 0, 0, points);
     expect(points[0].diffuse, glm::vec3(0.8f));
     expect(points[0].transmitted, glm::vec3(0.0f));
 }
@@ -138,7 +138,7 @@ protected:
         const auto shader = render::make_shader(scene, rays, options);
         std::vector<SurfacePoint> points;
         for (const glm::vec3& d : directions) {
-            render::SurfaceFinder(scene, rays, Shade::full).follow({eye, glm::normalize(d)}, 0, 0, points);
+            render::EyePathTracer(scene, rays, Shade::full).follow({eye, glm::normalize(d)}, 0, 0, points);
         }
         for (SurfacePoint& p : points) {
             p.specular = glm::vec3(0.0f);

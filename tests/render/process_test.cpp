@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
-#include <render/picture.hpp>
+#include <render/io/picture.hpp>
 
 #include "bitmap.hpp"
 #include "programs.hpp"

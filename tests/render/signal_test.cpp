@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <render/picture.hpp>
+#include <render/io/picture.hpp>
 
 #include "programs.hpp"
 

@@ -119,7 +119,7 @@ TEST(AreaLights, AreSpreadEvenlyWhateverTheTriangles) {
         for (const std::size_t count : {64u, 100u, 1024u}) {
             Mean even, independent;
             for (std::uint64_t seed = 0; seed < 20; ++seed) {
-                even.add(discrepancy(area_lights(EmissiveTriangles<V>(triangles), count, LowDiscrepancy{seed})));
+                even.add(discrepancy(area_lights(EmissiveTriangles<V>(triangles), count, ScrambledSobol{seed})));
                 Random random(seed);
                 std::vector<OrientedPointLight<V>> points(count);
                 for (auto& p : points) p.position = V(random.in_box(glm::dvec3(0.0), glm::dvec3(1.0)));
@@ -201,7 +201,7 @@ TEST(AreaLights, AreUnbiasedOverSeeds) {
     }
     Mean mean;
     for (std::uint64_t seed = 0; seed < 4000; ++seed) {
-        mean.add(mean_height(area_lights(EmissiveTriangles<V>(triangles), 5, LowDiscrepancy{seed})));
+        mean.add(mean_height(area_lights(EmissiveTriangles<V>(triangles), 5, ScrambledSobol{seed})));
     }
     EXPECT_LT(mean.standard_errors_from(truth), one_in_a_million);
 }

@@ -118,7 +118,7 @@ TEST(EnvironmentLights, KeepThePowerOfEveryChannelAndAreExactlyAsMany) {
 TEST(EnvironmentLights, AreTheSameEveryTimeAndDifferBySeed) {
     const Picture picture = clouds(16, 3);
     const auto a = environment_lights(picture.map(), 100), b = environment_lights(picture.map(), 100);
-    const auto other = environment_lights(picture.map(), 100, CentredNumbers{1});
+    const auto other = environment_lights(picture.map(), 100, CenteredSobol{1});
     std::size_t different = 0;
     for (std::size_t i = 0; i < a.size(); ++i) {
         EXPECT_EQ(a[i].direction, b[i].direction);
@@ -202,7 +202,7 @@ TEST(EnvironmentLights, AreUnbiasedOverSeeds) {
     }
     Mean mean;
     for (std::uint64_t seed = 0; seed < 4000; ++seed)
-        mean.add(irradiance(environment_lights(map, 8, LowDiscrepancy{seed}), n));
+        mean.add(irradiance(environment_lights(map, 8, ScrambledSobol{seed}), n));
     // Pixels are sampled evenly in latitude, not in its sine: 0.1 % here.
     EXPECT_NEAR(mean.value() / truth, 1.0, 0.001 + one_in_a_million * mean.deviation() / std::sqrt(4000.0) / truth);
 }
@@ -233,7 +233,7 @@ TEST(EnvironmentLights, RefuseWhatIsNoMap) {
 
 TEST(EnvironmentLights, TakeAnyPixelsAndSpectrum) {
     const EnvironmentMap map(8, 4, [](std::uint32_t x, std::uint32_t) { return x < 4 ? 1.0f : 0.0f; });
-    const auto lights = environment_lights(map, 40, IndependentNumbers{2});
+    const auto lights = environment_lights(map, 40, IndependentSampler{2});
     ASSERT_EQ(lights.size(), 40u);
     double power = 0.0;
     for (const DistantLight<float>& l : lights) {

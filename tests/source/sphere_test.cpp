@@ -24,7 +24,7 @@ using Sphere = SphereLight<V>;
 static_assert(PointLight<SpherePointLight<V>> && !OrientedLight<SpherePointLight<V>>);
 
 std::vector<SpherePointLight<V>> lights_of(const Sphere& sphere, std::size_t count, std::uint64_t seed = 0) {
-    return sphere_lights(std::span<const Sphere>(&sphere, 1), count, LowDiscrepancy{seed});
+    return sphere_lights(std::span<const Sphere>(&sphere, 1), count, ScrambledSobol{seed});
 }
 
 TEST(SphereLights, ProjectUniformlyOnTheSpheresDiscSeenFromAnywhere) {

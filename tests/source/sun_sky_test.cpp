@@ -242,7 +242,7 @@ TEST(GroundLights, AreTheGroundThatIsSeen) {
     const glm::dvec3 radiance(daylight.ground_radiance());
     for (const std::size_t count : {1u, 7u, 100u, 5000u}) {
         SCOPED_TRACE(count);
-        const auto lights = ground_lights(daylight, count, CentredNumbers{count});
+        const auto lights = ground_lights(daylight, count, CenteredSobol{count});
         ASSERT_EQ(lights.size(), count);
         for (const auto& l : lights) {
             EXPECT_GT(l.direction.y, 0.0f) << "from below";

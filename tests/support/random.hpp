@@ -18,7 +18,7 @@ public:
     explicit Random(std::uint64_t seed) : seed_(seed) {}
 
     std::uint64_t bits() { return hash_keys(seed_, counter_++); }
-    double unit() { return to_unit(bits()); }
+    double unit() { return uniform01(bits()); }
     double between(double lo, double hi) { return lo + (hi - lo) * unit(); }
     float real(double lo, double hi) { return static_cast<float>(between(lo, hi)); }
     std::size_t below(std::size_t n) { return static_cast<std::size_t>(unit() * static_cast<double>(n)); }

@@ -12,7 +12,7 @@
 #include <ImfPartType.h>
 #include <ImfVersion.h>
 
-#include "escape.hpp"
+#include "io/escape.hpp"
 
 namespace render {
 

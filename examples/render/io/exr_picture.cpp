@@ -18,7 +18,7 @@
 #include <ImfStandardAttributes.h>
 #include <lightcuts/core/invalid_input.hpp>
 
-#include "escape.hpp"
+#include "io/escape.hpp"
 #include "io/exr_header.hpp"
 #include "io/exr_stream.hpp"
 #include "io/file_kind.hpp"

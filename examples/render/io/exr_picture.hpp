@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "picture.hpp"
+#include "io/picture.hpp"
 
 namespace render {
 

@@ -7,9 +7,9 @@
 
 #include <lightcuts/core/invalid_input.hpp>
 
-#include "escape.hpp"
+#include "io/escape.hpp"
+#include "io/text_file.hpp"
 #include "io/uri.hpp"
-#include "text_file.hpp"
 
 namespace render {
 namespace {

@@ -7,11 +7,11 @@
 
 #include <lightcuts/core/invalid_input.hpp>
 
-#include "escape.hpp"
+#include "io/escape.hpp"
+#include "io/text_file.hpp"
 #include "io/uri.hpp"
-#include "reflectance.hpp"
-#include "text_file.hpp"
-#include "texture.hpp"
+#include "surfaces/reflectance.hpp"
+#include "surfaces/texture.hpp"
 
 namespace render {
 namespace {

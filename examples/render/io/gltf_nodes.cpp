@@ -11,7 +11,7 @@
 #include <glm/mat3x3.hpp>
 #include <lightcuts/core/invalid_input.hpp>
 
-#include "escape.hpp"
+#include "io/escape.hpp"
 #include "io/gltf_accessor.hpp"
 
 namespace render {

@@ -16,14 +16,14 @@
 #include <lightcuts/core/invalid_input.hpp>
 #include <lightcuts/core/vector.hpp>
 
-#include "escape.hpp"
+#include "io/escape.hpp"
 #include "io/gltf_document.hpp"
 #include "io/gltf_materials.hpp"
 #include "io/gltf_mesh.hpp"
 #include "io/gltf_nodes.hpp"
 #include "io/gltf_pose.hpp"
+#include "io/text_file.hpp"
 #include "io/world_origin.hpp"
-#include "text_file.hpp"
 
 namespace render {
 namespace {

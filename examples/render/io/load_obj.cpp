@@ -11,8 +11,8 @@
 #include "io/obj_geometry.hpp"
 #include "io/obj_materials.hpp"
 #include "io/polygon.hpp"
+#include "io/text_file.hpp"
 #include "io/world_origin.hpp"
-#include "text_file.hpp"
 
 namespace render {
 namespace {

@@ -7,7 +7,7 @@
 #include "io/exr_picture.hpp"
 #include "io/file_kind.hpp"
 #include "io/radiance_picture.hpp"
-#include "text_file.hpp"
+#include "io/text_file.hpp"
 
 namespace render {
 

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "picture.hpp"
+#include "io/picture.hpp"
 
 namespace render {
 

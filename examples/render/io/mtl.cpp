@@ -9,10 +9,10 @@
 #include <glm/common.hpp>
 #include <lightcuts/core/invalid_input.hpp>
 
-#include "escape.hpp"
+#include "io/escape.hpp"
 #include "io/obj_lines.hpp"
-#include "reflectance.hpp"
-#include "text_file.hpp"
+#include "io/text_file.hpp"
+#include "surfaces/reflectance.hpp"
 
 namespace render {
 namespace {
@@ -156,7 +156,7 @@ private:
     float dissolve(const ObjStatement& statement) {
         split_before_comment(statement.rest, words_);
         if (!words_.empty() && words_[0] == "-halo") {
-            leave_out(material().left_out, "-halo of materials", "cover does not depend on the angle of view");
+            leave_out(material().left_out, "-halo of materials", "opacity does not depend on the angle of view");
             words_.erase(words_.begin());
         }
         if (words_.empty()) fail("'d' needs a number; the line is broken or cut off");

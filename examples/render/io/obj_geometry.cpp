@@ -9,9 +9,9 @@
 #include <set>
 #include <utility>
 
-#include "escape.hpp"
+#include "io/escape.hpp"
 #include "io/obj_lines.hpp"
-#include "text_file.hpp"
+#include "io/text_file.hpp"
 
 namespace render {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <lightcuts/core/invalid_input.hpp>
 
-#include "text_file.hpp"
+#include "io/text_file.hpp"
 
 namespace render {
 namespace {

@@ -6,12 +6,12 @@
 #include <glm/common.hpp>
 #include <lightcuts/core/invalid_input.hpp>
 
-#include "escape.hpp"
+#include "io/escape.hpp"
 #include "io/obj_lines.hpp"
+#include "io/text_file.hpp"
 #include "luminance.hpp"
-#include "reflectance.hpp"
-#include "text_file.hpp"
-#include "texture.hpp"
+#include "surfaces/reflectance.hpp"
+#include "surfaces/texture.hpp"
 
 namespace render {
 namespace {
@@ -248,7 +248,7 @@ void ObjMaterials::convert_mirror(const MtlMaterial& source, Material& m) {
     if (source.diffuse.value_or(black) != black || source.diffuse_map) {
         leave_out(scene_.left_out, "Kd and map_Kd of '" + m.name + "'", "a mirror, illum 5, reflects by Ks alone");
     }
-    convert_cover(source, m);
+    convert_opacity(source, m);
 }
 
 void ObjMaterials::convert_glass(const MtlMaterial& source, Material& m) {
@@ -289,10 +289,10 @@ void ObjMaterials::convert_phong(const MtlMaterial& source, int illumination, Ma
     } else if (illumination >= 2 && specular != black) {
         leave_out(scene_.left_out, "Ks of '" + m.name + "'", "where Ns is 0, there is no gloss");
     }
-    convert_cover(source, m);
+    convert_opacity(source, m);
 }
 
-void ObjMaterials::convert_cover(const MtlMaterial& source, Material& m) {
+void ObjMaterials::convert_opacity(const MtlMaterial& source, Material& m) {
     m.alpha_texture = texture(source.dissolve_map, Role::alpha);
     const TextureUse& alpha = m.alpha_texture.is_there() ? m.alpha_texture : m.base_color_texture;
     const bool holes = alpha.is_there() && has_holes(scene_.textures[static_cast<std::size_t>(alpha.texture)]);

@@ -34,7 +34,7 @@ public:
     void note_no_uv(std::uint32_t material);
 
 private:
-    /// What a texture's texels are: reflectance; the same without its alpha; emitted radiance; cover; numbers.
+    /// What a texture's texels are: reflectance; the same without its alpha; emitted radiance; opacity; numbers.
     enum class Role { color, opaque_color, emission, alpha, data };
     using TextureKey = std::tuple<std::filesystem::path, Role, double, double, char, bool>;
 
@@ -51,7 +51,7 @@ private:
     void convert_glass(const MtlMaterial& source, Material& material);
     void convert_phong(const MtlMaterial& source, int illumination, Material& material);
     void convert_model(const MtlMaterial& source, Material& material);
-    void convert_cover(const MtlMaterial& source, Material& material);
+    void convert_opacity(const MtlMaterial& source, Material& material);
     TextureUse texture(const std::optional<MtlMap>& map, Role role);
     int load_texture(const MtlMap& map, Role role);
     std::filesystem::path path_of(const MtlMap& map);

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "escape.hpp"
+#include "io/escape.hpp"
 #include "io/file_kind.hpp"
 #include "io/picture_size.hpp"
-#include "text_file.hpp"
+#include "io/text_file.hpp"
 
 namespace render {
 

@@ -4,7 +4,7 @@
 
 namespace lightcuts {
 
-/// Mixes 64 bits so that every input bit flips each output bit with a chance near one half (the finaliser of
+/// Mixes 64 bits so that every input bit flips each output bit with a probability near one half (the finaliser of
 /// SplitMix64). Bijective.
 constexpr std::uint64_t mix_bits(std::uint64_t x) {
     x += 0x9e3779b97f4a7c15u;
@@ -23,6 +23,6 @@ constexpr std::uint64_t hash_keys(std::uint64_t seed, Keys... keys) {
 }
 
 /// The upper 53 bits of `h` as a number in [0, 1).
-constexpr double to_unit(std::uint64_t h) { return static_cast<double>(h >> 11) * 0x1p-53; }
+constexpr double uniform01(std::uint64_t h) { return static_cast<double>(h >> 11) * 0x1p-53; }
 
 }  // namespace lightcuts

@@ -12,8 +12,8 @@
 
 namespace lightcuts::detail {
 
-/// A number chosen for a descent keeps its random bits as it is rescaled from node to node; below this chance too few
-/// are left and it is drawn afresh.
+/// A number chosen for a descent keeps its random bits as it is rescaled from node to node; below this probability too
+/// few are left and it is drawn afresh.
 inline constexpr double least_resolution = 0x1p-24;
 
 /// Where in [0, 1) `u` lies within the part of length `length` that begins at `begin`.
@@ -23,8 +23,8 @@ inline double remainder_in(double u, double begin, double length) {
 }
 
 /// Sends the random numbers of the scratch's visits down the tree: at each node a number chooses the child into whose
-/// part of [0, 1) it falls, the parts being the children's chances, and goes on as its place within that part. So what
-/// was stratified stays so. Numbers that meet at a leaf become one drawn light; those below whose node nothing can
+/// part of [0, 1) it falls, the parts being the children's probabilities, and goes on as its place within that part. So
+/// what was stratified stays so. Numbers that meet at a leaf become one drawn light; those below whose node nothing can
 /// contribute are dropped. `scratch.visits` says which of `numbers`, rising within [0, 1), start where.
 /// cost: two importances a node visited, however many numbers visit it; found for four nodes at a time.
 template <class Tree, class M, class Policy>
@@ -61,13 +61,13 @@ void descend(const Tree& tree, std::uint32_t kind, const Receiver<M>& receiver, 
         // Step 3: share out their numbers.
         for (std::size_t i = 0; i < count; ++i) {
             const Visit& visit = inner[i];
-            const auto part = chances_of(std::array{importances[2 * i], importances[2 * i + 1]});
+            const auto part = probabilities_of(std::array{importances[2 * i], importances[2 * i + 1]});
             if (!(part[0] + part[1] > 0.0)) continue;
             const std::span<double> own = numbers.subspan(visit.begin, visit.end - visit.begin);
             double resolution = visit.resolution;
             if (resolution < least_resolution) {
                 for (std::size_t k = 0; k < own.size(); ++k) {
-                    own[k] = to_unit(hash_keys(seed, receiver.id, kind, visit.node, k));
+                    own[k] = uniform01(hash_keys(seed, receiver.id, kind, visit.node, k));
                 }
                 std::sort(own.begin(), own.end());
                 resolution = 1.0;
@@ -84,20 +84,20 @@ void descend(const Tree& tree, std::uint32_t kind, const Receiver<M>& receiver, 
     }
 }
 
-/// The part of [0, 1) into which `u` falls, when the parts are `chances` long; `u` becomes its place within it.
-/// pre: the chances sum to 1.
+/// The part of [0, 1) into which `u` falls, when the parts are `probabilities` long; `u` becomes its place within it.
+/// pre: the probabilities sum to 1.
 template <std::size_t N>
-std::size_t choose(const std::array<double, N>& chances, double& u) {
+std::size_t choose(const std::array<double, N>& probabilities, double& u) {
     std::size_t chosen = 0;
     double begin = 0.0, end = 0.0;
     for (std::size_t i = 0; i < N; ++i) {
-        if (!(chances[i] > 0.0)) continue;
+        if (!(probabilities[i] > 0.0)) continue;
         chosen = i;
         begin = end;
-        end += chances[i];
+        end += probabilities[i];
         if (u < end) break;
     }
-    u = remainder_in(u, begin, chances[chosen]);
+    u = remainder_in(u, begin, probabilities[chosen]);
     return chosen;
 }
 

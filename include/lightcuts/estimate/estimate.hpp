@@ -37,7 +37,7 @@ struct EstimateScratch {
         std::uint32_t light;
         std::uint32_t kind;
     };
-    /// A light drawn at random, and by what its contribution is multiplied: the inverse of its chance.
+    /// A light drawn at random, and by what its contribution is multiplied: the inverse of its probability.
     struct Draw {
         std::uint32_t light;
         std::uint32_t kind;
@@ -47,8 +47,8 @@ struct EstimateScratch {
     struct Visit {
         std::uint32_t node;
         std::uint32_t begin, end;  ///< of the numbers
-        double weight;             ///< of each number: divided by its chance to come here
-        double resolution;         ///< that chance, counted from where the numbers were drawn
+        double weight;             ///< of each number: divided by its probability to come here
+        double resolution;         ///< that probability, counted from where the numbers were drawn
     };
     /// A node from which lights are drawn, apart from the others.
     struct Stratum {

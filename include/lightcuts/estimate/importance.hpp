@@ -16,7 +16,8 @@
 
 namespace lightcuts {
 
-/// How much a cluster may matter at a receiver: what chances of clusters are made of. Knows nothing of shadows.
+/// How much a cluster may matter at a receiver: what the probabilities of clusters are made of. Knows nothing of
+/// shadows.
 struct Importance {
     /// What the cluster's bound amounts to at its mean distance. Zero only where the bound is; infinite only where the
     /// bound is, since the cluster may touch the receiver.
@@ -119,23 +120,23 @@ std::array<Importance, Forest::kinds> root_importances(const Policy& policy, con
 /// mixtures].
 inline constexpr double defensive_share = 0.25;
 
-/// The chances of clusters, in proportion to their importances but for the defensive share. Zero only where the
+/// The probabilities of clusters, in proportion to their importances but for the defensive share. Zero only where the
 /// importance is. They sum to 1, or to 0 if all importances are zero.
 template <std::size_t N>
-std::array<double, N> chances_of(const std::array<Importance, N>& importances) {
+std::array<double, N> probabilities_of(const std::array<Importance, N>& importances) {
     double expected = 0.0, irradiance = 0.0;
     for (const Importance& i : importances) {
         expected += i.expected;
         irradiance += i.weight(true);
     }
-    std::array<double, N> chances{};
-    if (!(expected > 0.0)) return chances;
+    std::array<double, N> probabilities{};
+    if (!(expected > 0.0)) return probabilities;
     const double share = expected <= (std::numeric_limits<double>::max)() ? defensive_share : 1.0;
     for (std::size_t i = 0; i < N; ++i) {
-        chances[i] = share * (importances[i].weight(true) / irradiance);
-        if (share < 1.0) chances[i] += (1.0 - share) * (importances[i].expected / expected);
+        probabilities[i] = share * (importances[i].weight(true) / irradiance);
+        if (share < 1.0) probabilities[i] += (1.0 - share) * (importances[i].expected / expected);
     }
-    return chances;
+    return probabilities;
 }
 
 }  // namespace detail

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "../core/discrete_distribution.hpp"
 #include "../core/random.hpp"
-#include "../core/weighted_choice.hpp"
 #include "estimate.hpp"
 
 namespace lightcuts {
@@ -32,11 +32,11 @@ public:
         const auto at = static_cast<std::uint32_t>(choice_(u));
         std::uint32_t kind = 0;
         while (kind + 1 < first_.size() && first_[kind + 1] <= at) ++kind;
-        return {kind, at - first_[kind], choice_.chance(at)};
+        return {kind, at - first_[kind], choice_.probability(at)};
     }
 
 private:
-    detail::WeightedChoice choice_;
+    detail::DiscreteDistribution choice_;
     std::vector<std::uint32_t> first_;  ///< of each kind
 };
 
@@ -54,7 +54,7 @@ Estimate<forest_spectrum<Lights>> power_sampling(const Lights& lights, const Pow
     if (distribution.empty()) return result;
     scratch.contributions.clear();
     for (std::uint32_t k = 0; k < samples; ++k) {
-        const double jitter = to_unit(hash_keys(seed, receiver.id, k));
+        const double jitter = uniform01(hash_keys(seed, receiver.id, k));
         const auto choice = distribution.choose((k + jitter) / samples);
         const auto weight = static_cast<float>(1.0 / (choice.probability * samples));
         forest.visit(choice.kind, [&](const auto& tree) {

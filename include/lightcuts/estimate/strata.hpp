@@ -36,7 +36,7 @@ void draw_from_strata(const Forest& forest, const Receiver<M>& receiver, const P
             before = behind;
             const auto begin = static_cast<std::uint32_t>(scratch.numbers.size());
             add_stratified(scratch.numbers, count,
-                           [&](std::size_t k) { return to_unit(hash_keys(seed, receiver.id, kind, s.node, k)); });
+                           [&](std::size_t k) { return uniform01(hash_keys(seed, receiver.id, kind, s.node, k)); });
             scratch.visits.push_back({s.node, begin, static_cast<std::uint32_t>(scratch.numbers.size()),
                                       1.0 / static_cast<double>(count), 1.0});
         }

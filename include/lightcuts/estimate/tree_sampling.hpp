@@ -19,9 +19,9 @@ struct LightSample {
 
 namespace detail {
 
-inline bool any(const auto& chances) {
-    for (const double chance : chances) {
-        if (chance > 0.0) return true;
+inline bool any(const auto& probabilities) {
+    for (const double probability : probabilities) {
+        if (probability > 0.0) return true;
     }
     return false;
 }
@@ -34,7 +34,7 @@ inline bool any(const auto& chances) {
 template <TreeOrForest Lights, class M, class Policy = TwoStageBounds>
 LightSample sample_light(const Lights& lights, const Receiver<M>& receiver, double u, const Policy& policy = {}) {
     const auto& forest = as_forest(lights);
-    const auto roots = detail::chances_of(detail::root_importances(policy, receiver, forest));
+    const auto roots = detail::probabilities_of(detail::root_importances(policy, receiver, forest));
     if (!detail::any(roots)) return {};
     const std::size_t kind = detail::choose(roots, u);
     LightSample sample{.kind = static_cast<std::uint32_t>(kind), .probability = roots[kind]};
@@ -42,14 +42,15 @@ LightSample sample_light(const Lights& lights, const Receiver<M>& receiver, doub
         const ClusterTree& topology = tree.topology();
         std::uint32_t node = topology.root();
         while (!topology.is_leaf(node)) {
-            const auto chances = detail::chances_of(detail::child_importances(policy, receiver, tree, node));
-            if (!detail::any(chances)) {
+            const auto probabilities = detail::probabilities_of(
+                detail::child_importances(policy, receiver, tree, node));
+            if (!detail::any(probabilities)) {
                 sample = {};
                 return;
             }
-            const std::size_t child = detail::choose(chances, u);
+            const std::size_t child = detail::choose(probabilities, u);
             node = child == 0 ? topology.left(node) : topology.right(node);
-            sample.probability *= chances[child];
+            sample.probability *= probabilities[child];
         }
         sample.leaf = node;
         sample.light = topology.item(node);
@@ -57,20 +58,21 @@ LightSample sample_light(const Lights& lights, const Receiver<M>& receiver, doub
     return sample;
 }
 
-/// The chance that `sample_light` draws the light at `leaf` of the tree of kind `kind` for a random number. Summed over
-/// all leaves it is 1, less the chance of descents that end where nothing can contribute.
-/// pre: `leaf` is a leaf of that tree. cost: two importances a level of the tree.
+/// The probability that `sample_light` draws the light at `leaf` of the tree of kind `kind` for a random number. Summed
+/// over all leaves it is 1, less the probability of descents that end where nothing can contribute. pre: `leaf` is a
+/// leaf of that tree. cost: two importances a level of the tree.
 template <TreeOrForest Lights, class M, class Policy = TwoStageBounds>
 double probability_of(const Lights& lights, const Receiver<M>& receiver, std::uint32_t kind, std::uint32_t leaf,
                       const Policy& policy = {}) {
     const auto& forest = as_forest(lights);
-    double probability = detail::chances_of(detail::root_importances(policy, receiver, forest))[kind];
+    double probability = detail::probabilities_of(detail::root_importances(policy, receiver, forest))[kind];
     forest.visit(kind, [&](const auto& tree) {
         const ClusterTree& topology = tree.topology();
         for (std::uint32_t node = topology.root(); probability > 0.0 && !topology.is_leaf(node);) {
-            const auto chances = detail::chances_of(detail::child_importances(policy, receiver, tree, node));
+            const auto probabilities = detail::probabilities_of(
+                detail::child_importances(policy, receiver, tree, node));
             const std::uint32_t left = topology.left(node);
-            probability *= chances[leaf <= left ? 0 : 1];
+            probability *= probabilities[leaf <= left ? 0 : 1];
             node = leaf <= left ? left : topology.right(node);
         }
     });
@@ -100,26 +102,26 @@ Estimate<forest_spectrum<Lights>> tree_sampling(const Lights& lights, const Rece
                                                 const Policy& policy = {}) {
     const auto& forest = as_forest(lights);
     scratch.draws.clear();
-    const auto roots = detail::chances_of(detail::root_importances(policy, receiver, forest));
+    const auto roots = detail::probabilities_of(detail::root_importances(policy, receiver, forest));
     if (!detail::any(roots)) return {};
     scratch.numbers.clear();
     detail::add_stratified(scratch.numbers, samples,
-                           [&](std::size_t k) { return to_unit(hash_keys(seed, receiver.id, k)); });
+                           [&](std::size_t k) { return uniform01(hash_keys(seed, receiver.id, k)); });
     std::span<double> numbers(scratch.numbers);
     double begin = 0.0;
     forest.for_each([&](std::uint32_t kind, const auto& tree) {
-        const double chance = roots[kind];
-        if (!(chance > 0.0)) return;
+        const double probability = roots[kind];
+        if (!(probability > 0.0)) return;
         // Where rounding leaves something over behind the last tree, `remainder_in` brings it back.
         bool last = true;
         for (std::size_t k = kind + 1; k < roots.size(); ++k) last = last && !(roots[k] > 0.0);
-        const auto end = last ? numbers.end() : std::lower_bound(numbers.begin(), numbers.end(), begin + chance);
+        const auto end = last ? numbers.end() : std::lower_bound(numbers.begin(), numbers.end(), begin + probability);
         const std::span<double> own = numbers.first(static_cast<std::size_t>(end - numbers.begin()));
         numbers = numbers.subspan(own.size());
-        for (double& u : own) u = detail::remainder_in(u, begin, chance);
-        begin += chance;
-        scratch.visits.push_back(
-            {tree.topology().root(), 0, static_cast<std::uint32_t>(own.size()), 1.0 / (samples * chance), chance});
+        for (double& u : own) u = detail::remainder_in(u, begin, probability);
+        begin += probability;
+        scratch.visits.push_back({tree.topology().root(), 0, static_cast<std::uint32_t>(own.size()),
+                                  1.0 / (samples * probability), probability});
         detail::descend(tree, kind, receiver, policy, own, seed, scratch);
     });
     return detail::estimate_draws(forest, receiver, oracle, scratch);

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "../light/oriented.hpp"
-#include "point_walk.hpp"
+#include "spatial_order.hpp"
 #include "triangle_pieces.hpp"
 
 namespace lightcuts {
@@ -40,11 +40,11 @@ std::vector<std::uint32_t> compact_order(const E& emitter,
         groups[facing_of(normal_of(emitter, piece))].push_back(static_cast<std::uint32_t>(middles.size()));
         middles.push_back(facet_of(emitter, piece.triangle).at(piece.middle()));
     }
-    PointWalk walk(middles);
+    SpatialOrder order(middles);
     for (auto& group : groups) {
-        if (!group.empty()) walk.append(group);
+        if (!group.empty()) order.append(group);
     }
-    return walk.order();
+    return order.indices();
 }
 
 /// Pieces are this much smaller than a light's share, so that a share is a compact patch.
@@ -62,9 +62,9 @@ inline constexpr double least_textured_pieces = 4096.0;
 ///
 /// throws: invalid_input if no triangle has an area or all are black, or naming the triangle with a corner or radiance
 /// that is not finite or a negative radiance. cost: O((T + count) log(T + count))
-template <EmissiveMesh E, NumberSource Numbers = LowDiscrepancy>
+template <EmissiveMesh E, Sampler Sequence = ScrambledSobol>
 std::vector<OrientedPointLight<emitter_spectrum<E>>> area_lights(const E& emitter, std::size_t count,
-                                                                 const Numbers& numbers = {}) {
+                                                                 const Sequence& sampler = {}) {
     using S = emitter_spectrum<E>;
     const double wanted = detail::pieces_per_light * static_cast<double>(std::max<std::size_t>(count, 1));
     const auto pieces = detail::cut_sides(emitter, 1.0 / wanted,
@@ -75,7 +75,7 @@ std::vector<OrientedPointLight<emitter_spectrum<E>>> area_lights(const E& emitte
     std::vector<OrientedPointLight<S>> lights;
     if (count == 0) return lights;
 
-    detail::EqualShares<std::uint32_t, S, Numbers> patches(power, count, numbers);
+    detail::EqualPowerStrata<std::uint32_t, S, Sequence> patches(power, count, sampler);
     for (const std::uint32_t i : detail::compact_order(emitter, pieces)) {
         const auto& piece = pieces[i];
         patches.add(i, piece.area * channel_sum(piece.radiance), piece.radiance, piece.area);
@@ -83,7 +83,7 @@ std::vector<OrientedPointLight<emitter_spectrum<E>>> area_lights(const E& emitte
     lights.reserve(count);
     for (const auto& patch : patches.finish()) {
         const auto& piece = pieces[patch.piece];
-        const double across = static_cast<double>(numbers(static_cast<std::uint32_t>(lights.size()), 1));
+        const double across = static_cast<double>(sampler(static_cast<std::uint32_t>(lights.size()), 1));
         const glm::dvec3 point = detail::facet_of(emitter, piece.triangle).at(piece.at(patch.fraction, across));
         const glm::dvec3 axis = glm::normalize(detail::normal_of(emitter, piece));
         lights.push_back({glm::vec3(point), glm::vec3(axis), patch.power, {}});

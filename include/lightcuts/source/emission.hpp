@@ -17,17 +17,17 @@
 
 namespace lightcuts::detail {
 
-/// A particle on its way.
-struct Flight {
+/// The ray along which a particle leaves its light.
+struct EmittedRay {
     glm::dvec3 origin;
     glm::dvec3 direction;  ///< unit
 };
 
-/// Emission about an axis as a staircase of equal steps of the angle.
-class EmissionStaircase {
+/// Emission about an axis, tabulated as constant over equal steps of the angle.
+class TabulatedEmission {
 public:
     template <ProfiledLight L>
-    explicit EmissionStaircase(const L& light) {
+    explicit TabulatedEmission(const L& light) {
         double before = 1.0;
         for (std::size_t i = 0; i < steps; ++i) {
             const double angle = std::numbers::pi * static_cast<double>(i) / steps;
@@ -51,8 +51,8 @@ public:
         return glm::mix(std::cos(angle * static_cast<double>(i)), std::cos(angle * static_cast<double>(i + 1)), inside);
     }
 
-    /// Some order, in which equal staircases are neither before nor behind each other.
-    friend bool operator<(const EmissionStaircase& a, const EmissionStaircase& b) { return a.until_ < b.until_; }
+    /// Some order, in which equal tables are neither before nor behind each other.
+    friend bool operator<(const TabulatedEmission& a, const TabulatedEmission& b) { return a.until_ < b.until_; }
 
 private:
     static constexpr std::size_t steps = 512;
@@ -67,7 +67,7 @@ inline glm::dvec3 entered_faces(const Box& bounds, const glm::dvec3& direction) 
 }
 
 /// What `light` sends into a scene within `bounds`, for intensity 1: flux over intensity, sr; of a directional light
-/// the area of the bounds' outline, m^2. Of a light with a profile see EmissionStaircase.
+/// the area of the bounds' outline, m^2. Of a light with a profile see TabulatedEmission.
 template <Light L>
     requires(!ProfiledLight<L>)
 double flux_factor(const L& light, const Box& bounds) {
@@ -82,7 +82,7 @@ double flux_factor(const L& light, const Box& bounds) {
 }
 
 /// A particle of a directional light: with (u, v) and w uniform, particles enter `bounds` evenly.
-inline Flight parallel_flight(const glm::dvec3& direction, const Box& bounds, const glm::dvec2& uv, double w) {
+inline EmittedRay parallel_ray(const glm::dvec3& direction, const Box& bounds, const glm::dvec2& uv, double w) {
     const glm::dvec3 faces = entered_faces(bounds, direction);
     const double at = w * (faces.x + faces.y + faces.z);
     const int axis = at < faces.x ? 0 : at < faces.x + faces.y ? 1 : 2;
@@ -98,11 +98,11 @@ inline Flight parallel_flight(const glm::dvec3& direction, const Box& bounds, co
 /// A particle of `light`: with (u, v) and w uniform, particles leave with the density of its emission. `profile`: the
 /// emission of a light that has one.
 template <Light L>
-Flight flight_from(const L& light, const EmissionStaircase* profile, const Box& bounds, const glm::dvec2& uv,
-                   double w) {
+EmittedRay emitted_ray(const L& light, const TabulatedEmission* profile, const Box& bounds, const glm::dvec2& uv,
+                       double w) {
     const glm::dvec3 place(position_or_direction(light));
     if constexpr (DirectionalLight<L>) {
-        return parallel_flight(-place, bounds, uv, w);
+        return parallel_ray(-place, bounds, uv, w);
     } else if constexpr (OrientedLight<L>) {
         const glm::dvec3 axis = glm::normalize(glm::dvec3(to_vec3(axis_of(light))));
         const double cosine = ProfiledLight<L> ? profile->cosine(uv.x) : std::sqrt(1.0 - uv.x);

@@ -15,8 +15,8 @@
 
 #include "../core/invalid_input.hpp"
 #include "../light/directional.hpp"
-#include "map_walk.hpp"
-#include "shares.hpp"
+#include "equal_power_strata.hpp"
+#include "spherical_order.hpp"
 
 namespace lightcuts {
 
@@ -129,7 +129,7 @@ double validated_power(const EnvironmentMap<Pixels>& map) {
 
 /// `count` distant lights that stand for a map: the sphere of directions is cut into `count` compact regions of equal
 /// power (radiance x solid angle, sum of channels), and each becomes one light in a direction within its region: the
-/// middle of its power, or drawn in proportion to power (`numbers`: `LowDiscrepancy`). Where the map is bright, as in
+/// middle of its power, or drawn in proportion to power (`sampler`: `ScrambledSobol`). Where the map is bright, as in
 /// the sun, the lights are close: a part of the map of n lights' power gets n lights within two for each time that the
 /// curve through the regions leaves it, and even a single pixel can hold many. The irradiance of all lights together is
 /// the map's, channel by channel.
@@ -138,8 +138,8 @@ double validated_power(const EnvironmentMap<Pixels>& map) {
 /// [Agarwal et al. 2003], but all of one power.
 /// throws: invalid_input if the map is not twice as wide as high, if a pixel is negative, infinite or NaN (the message
 /// names it), or if all are black. cost: O(pixels + count); every pixel is read twice.
-template <class Pixels, NumberSource Numbers = CentredNumbers>
-auto environment_lights(const EnvironmentMap<Pixels>& map, std::size_t count, const Numbers& numbers = {}) {
+template <class Pixels, Sampler Sequence = CenteredSobol>
+auto environment_lights(const EnvironmentMap<Pixels>& map, std::size_t count, const Sequence& sampler = {}) {
     using S = typename EnvironmentMap<Pixels>::spectrum;
     const double power = detail::validated_power(map);
     std::vector<DistantLight<S>> lights;
@@ -148,15 +148,15 @@ auto environment_lights(const EnvironmentMap<Pixels>& map, std::size_t count, co
     std::vector<double> angles(map.height);
     for (std::uint32_t y = 0; y < map.height; ++y) angles[y] = map.solid_angle(y) * static_cast<double>(map.scale);
     using Pixel = glm::uvec2;
-    detail::EqualShares<Pixel, S, Numbers> regions(power, count, numbers);
-    detail::walk_map(map.width, map.height, [&](std::uint32_t x, std::uint32_t y) {
+    detail::EqualPowerStrata<Pixel, S, Sequence> regions(power, count, sampler);
+    detail::visit_in_spherical_order(map.width, map.height, [&](std::uint32_t x, std::uint32_t y) {
         const S radiance = map.pixels(x, y);
         regions.add({x, y}, channel_sum(radiance) * angles[y], radiance, angles[y]);
     });
 
     lights.reserve(count);
     for (const auto& region : regions.finish()) {
-        const double across = static_cast<double>(numbers(static_cast<std::uint32_t>(lights.size()), 1));
+        const double across = static_cast<double>(sampler(static_cast<std::uint32_t>(lights.size()), 1));
         const glm::dvec2 inside(region.fraction, across);
         const glm::dvec3 towards = map.direction_at(glm::dvec2(region.piece) + inside);
         lights.push_back({glm::vec3(-towards), region.power});

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "../core/discrete_distribution.hpp"
 #include "../core/invalid_input.hpp"
-#include "../core/weighted_choice.hpp"
 #include "emission.hpp"
 
 namespace lightcuts {
@@ -49,7 +49,7 @@ namespace detail {
 /// A particle that leaves its light.
 template <Spectrum S>
 struct EmittedParticle {
-    Flight flight;
+    EmittedRay ray;
     S power;  ///< channels add up to 1
 };
 
@@ -97,11 +97,11 @@ public:
             if (at < first_[kind] || at - first_[kind] >= lights.size()) return;
             const std::size_t i = at - first_[kind];
             const auto& light = lights[i];
-            const EmissionStaircase* profile = profiles_of_[kind].empty() ? nullptr : profiles_of_[kind][i];
+            const TabulatedEmission* profile = profiles_of_[kind].empty() ? nullptr : profiles_of_[kind][i];
             const auto intensity = intensity_of(light);
             const double sum = channel_sum(intensity);
             const S share = make_spectrum<S>([&](int c) { return static_cast<double>(channel(intensity, c)) / sum; });
-            f(light, EmittedParticle<S>{flight_from(light, profile, bounds_, uv, w), share});
+            f(light, EmittedParticle<S>{emitted_ray(light, profile, bounds_, uv, w), share});
         });
     }
 
@@ -109,7 +109,7 @@ private:
     template <class L>
     double flux_factor_of(const L& light) {
         if constexpr (ProfiledLight<L>) {
-            const EmissionStaircase* profile = &*profiles_.emplace(light).first;
+            const TabulatedEmission* profile = &*profiles_.emplace(light).first;
             profiles_of_.back().push_back(profile);
             return profile->power();
         } else {
@@ -119,10 +119,10 @@ private:
 
     const Sources& sources_;
     Box bounds_;
-    WeightedChoice choice_;
+    DiscreteDistribution choice_;
     std::vector<std::size_t> first_;                                  ///< of each kind
-    std::set<EmissionStaircase> profiles_;                            ///< lights often share one
-    std::vector<std::vector<const EmissionStaircase*>> profiles_of_;  ///< by kind and light; empty for other kinds
+    std::set<TabulatedEmission> profiles_;                            ///< lights often share one
+    std::vector<std::vector<const TabulatedEmission*>> profiles_of_;  ///< by kind and light; empty for other kinds
 };
 
 }  // namespace detail

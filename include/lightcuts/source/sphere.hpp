@@ -14,7 +14,7 @@
 #include "../core/invalid_input.hpp"
 #include "../light/light.hpp"
 #include "../visibility/query.hpp"
-#include "numbers.hpp"
+#include "sampler.hpp"
 
 namespace lightcuts {
 
@@ -71,9 +71,9 @@ VisibilityQuery ending_at(const SphereLight<S>& sphere, VisibilityQuery query) {
 ///
 /// throws: invalid_input naming the first sphere whose radius is not positive, whose centre is not finite or whose
 /// intensity is negative or not finite
-template <Spectrum S, NumberSource Numbers = LowDiscrepancy>
+template <Spectrum S, Sampler Sequence = ScrambledSobol>
 std::vector<SpherePointLight<S>> sphere_lights(std::span<const SphereLight<S>> spheres, std::size_t count,
-                                               const Numbers& numbers = {}) {
+                                               const Sequence& sampler = {}) {
     std::vector<SpherePointLight<S>> lights;
     lights.reserve(spheres.size() * count);
     for (std::uint32_t i = 0; i < spheres.size(); ++i) {
@@ -95,7 +95,7 @@ std::vector<SpherePointLight<S>> sphere_lights(std::span<const SphereLight<S>> s
             [&](int c) { return static_cast<double>(channel(sphere.intensity, c)) / static_cast<double>(count); });
         for (std::size_t k = 0; k < count; ++k) {
             const auto index = static_cast<std::uint32_t>(lights.size());
-            const auto number = [&](std::uint32_t d) { return static_cast<double>(numbers(index, d)); };
+            const auto number = [&](std::uint32_t d) { return static_cast<double>(sampler(index, d)); };
             // [Eq. 8]: a point of the disc seen along z, and a place along its chord.
             const double across = std::sqrt(number(0)), turn = 2.0 * std::numbers::pi * number(1);
             const glm::dvec3 unit(across * std::cos(turn), across * std::sin(turn),

@@ -120,8 +120,8 @@ private:
 };
 
 /// `count` distant lights spread evenly over the sun's disc, of equal power; their irradiance is the sun's.
-template <NumberSource Numbers = LowDiscrepancy>
-std::vector<DistantLight<>> sun_lights(const SunSky& daylight, std::size_t count = 64, const Numbers& numbers = {}) {
+template <Sampler Sequence = ScrambledSobol>
+std::vector<DistantLight<>> sun_lights(const SunSky& daylight, std::size_t count = 64, const Sequence& sampler = {}) {
     const glm::dvec3 axis = daylight.towards_sun();
     const glm::dvec3 aside = std::fabs(axis.y) < 0.9 ? glm::dvec3(0.0, 1.0, 0.0) : glm::dvec3(1.0, 0.0, 0.0);
     const glm::dvec3 x = glm::normalize(glm::cross(aside, axis)), y = glm::cross(axis, x);
@@ -129,8 +129,8 @@ std::vector<DistantLight<>> sun_lights(const SunSky& daylight, std::size_t count
     std::vector<DistantLight<>> lights;
     lights.reserve(count);
     for (std::uint32_t i = 0; i < count; ++i) {
-        const double radius = std::sqrt(static_cast<double>(numbers(i, 0))) * std::tan(SunSky::sun_radius);
-        const double turn = 2.0 * std::numbers::pi * static_cast<double>(numbers(i, 1));
+        const double radius = std::sqrt(static_cast<double>(sampler(i, 0))) * std::tan(SunSky::sun_radius);
+        const double turn = 2.0 * std::numbers::pi * static_cast<double>(sampler(i, 1));
         const glm::dvec3 towards = axis + radius * (std::cos(turn) * x + std::sin(turn) * y);
         lights.push_back({glm::vec3(-glm::normalize(towards)), share});
     }
@@ -139,9 +139,9 @@ std::vector<DistantLight<>> sun_lights(const SunSky& daylight, std::size_t count
 
 /// `count` distant lights of equal power that stand for the sky without the sun's disc: `environment_lights` of it,
 /// at `rows` rows of latitude.
-template <NumberSource Numbers = CentredNumbers>
+template <Sampler Sequence = CenteredSobol>
 std::vector<DistantLight<>> sky_lights(const SunSky& daylight, std::size_t count, std::uint32_t rows = 256,
-                                       const Numbers& numbers = {}) {
+                                       const Sequence& sampler = {}) {
     std::vector<glm::vec3> pixels;
     pixels.reserve(std::size_t{2} * rows * rows);
     // Only where the pixels are: those lie in EnvironmentMap's own places.
@@ -152,15 +152,15 @@ std::vector<DistantLight<>> sky_lights(const SunSky& daylight, std::size_t count
         }
     }
     const RowMajorPixels<glm::vec3> source{pixels.data(), 2 * rows};
-    return environment_lights(EnvironmentMap(2 * rows, rows, source), count, numbers);
+    return environment_lights(EnvironmentMap(2 * rows, rows, source), count, sampler);
 }
 
 /// `count` distant lights of equal power that stand for the ground, from below the horizon. They are spread evenly, on
 /// a spiral; on a plane that looks down their irradiance is exactly pi x the ground's radiance.
-template <NumberSource Numbers = CentredNumbers>
-std::vector<DistantLight<>> ground_lights(const SunSky& daylight, std::size_t count, const Numbers& numbers = {}) {
+template <Sampler Sequence = CenteredSobol>
+std::vector<DistantLight<>> ground_lights(const SunSky& daylight, std::size_t count, const Sequence& sampler = {}) {
     const double golden_turn = 2.0 * std::numbers::pi * (2.0 - std::numbers::phi);
-    const double start = 2.0 * std::numbers::pi * static_cast<double>(numbers(0, 1));
+    const double start = 2.0 * std::numbers::pi * static_cast<double>(sampler(0, 1));
     const auto n = static_cast<double>(count);
     const glm::vec3 share(glm::dvec3(daylight.ground_radiance()) * (2.0 * std::numbers::pi / n));
     std::vector<DistantLight<>> lights;

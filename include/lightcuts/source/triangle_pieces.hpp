@@ -15,7 +15,7 @@
 
 #include "../core/invalid_input.hpp"
 #include "emitter.hpp"
-#include "shares.hpp"
+#include "equal_power_strata.hpp"
 
 namespace lightcuts::detail {
 

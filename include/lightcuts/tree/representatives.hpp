@@ -58,7 +58,7 @@ public:
     node_index draw(node_index n, std::uint64_t choice) const {
         if (begin_.empty()) return leaves_[n];
         const std::span<const node_index> list = of(n);
-        return list[static_cast<std::size_t>(to_unit(choice) * static_cast<double>(list.size()))];
+        return list[static_cast<std::size_t>(uniform01(choice) * static_cast<double>(list.size()))];
     }
 
     /// All representatives of n, one of which may occur more than once.
@@ -89,7 +89,7 @@ private:
                 continue;
             }
             const node_index a = tree.left(n), b = tree.right(n);
-            const double r = to_unit(hash_keys(seed, n));
+            const double r = uniform01(hash_keys(seed, n));
             leaves_[n] = leaves_[falls_left(r, weights[a], weights[b]) ? a : b];
         }
     }
@@ -104,12 +104,12 @@ private:
                 const node_index a = tree.left(n), b = tree.right(n);
                 const std::size_t in_a = begin_[a + 1] - begin_[a], in_b = begin_[b + 1] - begin_[b];
                 const std::size_t more = in_a > in_b ? in_a : in_b, fewer = in_a + in_b - more;
-                const bool grows = to_unit(hash_keys(seed, n, 1)) * static_cast<double>(more) <
+                const bool grows = uniform01(hash_keys(seed, n, 1)) * static_cast<double>(more) <
                                    static_cast<double>(fewer);
                 const std::size_t count = std::min<std::size_t>(more + (grows ? 1 : 0), limit);
                 // Slot k falls to the left child if its stratum lies in the child's share of the weight; within a
                 // child the slots go round its list, so that no light is taken twice while another is left.
-                const double jitter = to_unit(hash_keys(seed, n, 2));
+                const double jitter = uniform01(hash_keys(seed, n, 2));
                 std::size_t next_a = hash_keys(seed, n, 3) % in_a, next_b = hash_keys(seed, n, 4) % in_b;
                 for (std::size_t k = 0; k < count; ++k) {
                     const double r = (static_cast<double>(k) + jitter) / static_cast<double>(count);

@@ -2,9 +2,9 @@
 #include <lightcuts/lightcuts.hpp>
 #include <lightcuts/source/area.hpp>
 #include <lightcuts/source/environment.hpp>
-#include <lightcuts/source/particles.hpp>
 #include <lightcuts/source/sphere.hpp>
 #include <lightcuts/source/sun_sky.hpp>
+#include <lightcuts/source/virtual_lights.hpp>
 
 template class lightcuts::LightTree<lightcuts::OmniLight<>>;
 template class lightcuts::LightTree<lightcuts::OrientedPointLight<float>>;

@@ -1,0 +1,96 @@
+#include "surfaces/surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "surfaces/surface_colors.hpp"
+#include "surfaces/surface_geometry.hpp"
+
+namespace render {
+
+namespace {
+
+constexpr int deepest_mirror = 8;
+/// Leaves and panes in a row that one eye ray passes.
+constexpr int most_layers = 64;
+/// Parts of an eye ray that carry less are left out.
+constexpr float smallest_weight = 1e-4f;
+
+/// Part of an eye ray that is still to be followed.
+struct Branch {
+    glm::vec3 origin{0.0f};
+    glm::vec3 direction{0.0f};
+    glm::vec3 weight{1.0f};
+    float travelled = 0;
+    int mirrors = 0;
+    int layers = 0;
+};
+
+/// Where `way` leads from the surface that `at` met at `distance` from the eye.
+Branch continued(const Branch& at, const SurfaceGeometry& surface, const DeltaLobe& way, float distance) {
+    const int step = way.passes ? 1 : 0;
+    return {surface.leave(way.direction), way.direction,   at.weight * way.share, distance,
+            at.mirrors + 1 - step,        at.layers + step};
+}
+
+bool is_worth_following(const Branch& branch) {
+    const bool bright = std::max({branch.weight.x, branch.weight.y, branch.weight.z}) >= smallest_weight;
+    return bright && branch.mirrors <= deepest_mirror && branch.layers <= most_layers;
+}
+
+}  // namespace
+
+EyeRaySeen EyePathTracer::follow(const EyeRay& ray, std::uint32_t pixel, std::uint32_t sample,
+                                 std::vector<SurfacePoint>& points) const {
+    EyeRaySeen seen;
+    seen.depth = std::numeric_limits<float>::infinity();
+    std::uint32_t vertex = 0;
+    std::vector<Branch> open;
+    open.push_back({ray.origin, ray.direction, glm::vec3(1.0f), 0.0f, 0, 0});
+    for (bool first = true; !open.empty(); first = false) {
+        const Branch at = open.back();
+        open.pop_back();
+        const auto hit = rays_.nearest(at.origin, at.direction);
+        if (!hit) {
+            seen.emitted += at.weight * scene_.background.radiance(at.direction);
+            continue;
+        }
+        const SurfaceGeometry surface = surface_at(scene_, *hit, at.direction);
+        const Material& material = scene_.materials[scene_.triangle_material[hit->triangle]];
+        const SurfaceColors colors = colors_at(scene_, hit->triangle, hit->u, hit->v);
+        if (first) {
+            seen.depth = hit->distance;
+            seen.normal = surface.shading_normal;
+        }
+        const glm::vec3 weight = at.weight * colors.opacity;
+        seen.emitted += at.weight * emitted_radiance(scene_, hit->triangle, hit->u, hit->v, surface.front);
+
+        const float distance = at.travelled + hit->distance;
+        const SurfaceResponse response = response_of(material, colors, surface, at.direction, shade_);
+        for (const DeltaLobe& way : response.delta_lobes()) {
+            const Branch branch = continued(at, surface, way, distance);
+            if (is_worth_following(branch)) open.push_back(branch);
+        }
+        if (response.lobes.is_black() || weight == glm::vec3(0.0f)) continue;
+        SurfacePoint point;
+        static_cast<SurfaceLobes&>(point) = response.lobes;
+        point.position = surface.position;
+        point.geometric_normal = surface.geometric_normal;
+        point.shading_normal = surface.shading_normal;
+        point.ray_origin = surface.leave(surface.geometric_normal);
+        point.to_viewer = -at.direction;
+        point.distance = distance;
+        point.weight = weight;
+        point.pixel = pixel;
+        point.sample = sample;
+        point.vertex = vertex++;
+        points.push_back(point);
+    }
+    return seen;
+}
+
+}  // namespace render
