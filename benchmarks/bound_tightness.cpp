@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <glm/common.hpp>
-#include <lightcuts/material/terms.hpp>
+#include <lightcuts/shading/transfer.hpp>
 
 #include "timing.hpp"
 #include "workload.hpp"
@@ -15,7 +15,7 @@ namespace benchmark {
 
 namespace {
 
-/// Bounds that no valid ones can beat: the largest terms that any light of the cluster has at the receiver.
+/// Bounds that no valid ones can beat: the largest transfer that any light of the cluster has at the receiver.
 template <class Forest>
 class ExactBounds {
 public:
@@ -31,7 +31,7 @@ public:
             largest.resize(topology.size());
             for (std::uint32_t n = 0; n < topology.size(); ++n) {
                 largest[n] = topology.is_leaf(n)
-                                 ? lightcuts::unshadowed_terms(receiver, tree.lights()[topology.item(n)])
+                                 ? lightcuts::unshadowed_transfer(receiver, tree.lights()[topology.item(n)])
                                  : glm::max(largest[topology.left(n)], largest[topology.right(n)]);
             }
         });

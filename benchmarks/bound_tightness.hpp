@@ -9,7 +9,7 @@ namespace benchmark {
 struct BoundTightness {
     std::string scene;
     std::size_t lights = 0, receivers = 0;
-    double exact = 0;         ///< by the largest terms that any of a cluster's lights has, shadows apart
+    double exact = 0;         ///< by the largest transfer that any of a cluster's lights has, shadows apart
     double usual = 0;         ///< by the default, TwoStageBounds
     double tight = 0;         ///< by its second stage wherever there is one
     double separate = 0;      ///< by SeparateBounds

@@ -15,7 +15,7 @@
 namespace {
 
 using namespace benchmark;
-using lightcuts::ClampOptions;
+using lightcuts::ClampingOptions;
 using lightcuts::CutResult;
 using Direct = lightcuts::OrientedPointLight<>;
 using Virtual = lightcuts::VirtualPointLight<>;
@@ -38,7 +38,7 @@ struct Sums {
 };
 
 template <class Tree>
-Sums shade_all(const Workload& work, const Tree& tree, const ClampOptions& clamp) {
+Sums shade_all(const Workload& work, const Tree& tree, const ClampingOptions& clamp) {
     static lightcuts::scratch_of<Tree> scratch;
     static std::vector<CutResult<glm::vec3>> results(group_size);
     const render::OpaqueOracle oracle = work.oracle();
@@ -68,12 +68,12 @@ int main(int argc, char** argv) {
 
     struct Case {
         const char* name;
-        ClampOptions clamp;
+        ClampingOptions clamp;
     };
     const std::vector<Case> cases = {{"off", {}},
                                      {"radiance 0.01", {.radiance = 0.01f}},
                                      {"automatic", lightcuts::automatic_clamping},
-                                     {"terms 10", {.terms = 10.0f}}};
+                                     {"transfer 10", {.transfer = 10.0f}}};
     return write_figures("bench-clamping", "clamping.json", [&] {
         nlohmann::json rows = nlohmann::json::array();
         std::printf("%-36s %-16s %8s %8s %12s %10s\n", "scene", "clamping", "cut", "rays", "/ unmarked", "/ off");
@@ -88,7 +88,7 @@ int main(int argc, char** argv) {
             std::vector<std::vector<double>> over_plain(cases.size()), over_off(cases.size());
             std::vector<Sums> sums(cases.size());
             for (int run = 0; run < runs; ++run) {
-                // Each in each other's place and order: neighbours in time share caches and clock rates.
+                // Each in each other's place and order: neighbors in time share caches and clock rates.
                 const std::size_t turns = cases.size() + 1;
                 std::vector<double> times(turns);
                 for (std::size_t turn = 0; turn < turns; ++turn) {

@@ -5,7 +5,7 @@
 namespace benchmark {
 
 /// The number of lights at which `ratios` of another method's time to that of lightcuts pass 1, log-linear between
-/// neighbours; 0: nowhere.
+/// neighbors; 0: nowhere.
 double crossing(const std::vector<double>& lights, const std::vector<double>& ratios);
 
 }  // namespace benchmark

@@ -72,7 +72,7 @@ private:
     ShadingCost cost_;
 };
 
-/// Runs all methods `runs` times by turns: neighbours in time share caches and clock rates. pre: `runs` is odd
+/// Runs all methods `runs` times by turns: neighbors in time share caches and clock rates. pre: `runs` is odd
 void run_by_turns(std::span<TimedMethod> methods, int runs);
 
 /// Median over the runs of time / time of `base` in the same turn.

@@ -20,8 +20,8 @@ constexpr int map_height = 512;
 
 /// Radiance from above and from below the horizon.
 glm::vec3 sky(const glm::dvec3& direction) {
-    const auto glow = [&](const glm::dvec3& centre, double sharpness) {
-        return static_cast<float>(std::exp(sharpness * (glm::dot(direction, glm::normalize(centre)) - 1.0)));
+    const auto glow = [&](const glm::dvec3& center, double sharpness) {
+        return static_cast<float>(std::exp(sharpness * (glm::dot(direction, glm::normalize(center)) - 1.0)));
     };
     const auto up = static_cast<float>(direction.y);
     if (up < 0.0f) return glm::vec3(0.06f, 0.05f, 0.04f) * (1.0f + up);

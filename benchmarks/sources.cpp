@@ -123,7 +123,7 @@ void environment(const Settings& set, Table& table) {
     for (const std::string& name : set.environments) under_map(name, set, table);
 }
 
-void few_lights(const Settings& set, Table& table) {
+void exhaustive_below(const Settings& set, Table& table) {
     const auto compare = [&](const std::string& name, render::Scene scene, const render::Options& options) {
         const ShadedPoints where(std::move(scene), set.width, set.height, render::shade_of(options));
         std::vector<TimedMethod> methods;
@@ -168,7 +168,7 @@ void many_lights(const Settings& set, Table& table) {
 }
 
 constexpr std::pair<const char*, void (*)(const Settings&, Table&)> parts[] = {
-    {"particles", particles}, {"environment", environment}, {"few", few_lights}, {"many", many_lights}};
+    {"particles", particles}, {"environment", environment}, {"few", exhaustive_below}, {"many", many_lights}};
 
 nlohmann::json measure_all(const Settings& set) {
     Table table;

@@ -7,7 +7,7 @@
 
 namespace benchmark {
 
-/// Processor seconds of this thread: on a shared machine the clock on the wall measures the neighbours.
+/// Processor seconds of this thread: on a shared machine the clock on the wall measures the neighbors.
 inline double processor_seconds() {
     timespec now{};
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);

@@ -22,7 +22,7 @@ namespace benchmark {
 
 using Receiver = lightcuts::Receiver<render::SurfaceMaterial>;
 
-/// The points that a small picture by the scene's first camera shades, in the renderer's order: neighbours share cache
+/// The points that a small picture by the scene's first camera shades, in the renderer's order: neighbors share cache
 /// lines of the trees. throws: lightcuts::invalid_input if there is no camera.
 std::vector<render::SurfacePoint> points_seen(const render::Scene& scene, const render::RayScene& rays, int width,
                                               int height, render::Shade shade = render::Shade::full);
@@ -35,7 +35,7 @@ public:
 
     std::size_t light_count() const { return scene_->light_count(); }
     /// As by default, or as the scene's name says.
-    const lightcuts::ClampOptions& clamp() const { return options_.clamp; }
+    const lightcuts::ClampingOptions& clamp() const { return options_.clamp; }
     /// Calls `f(forest)` as the renderer would: with a kind for virtual lights only if there are some.
     template <class F>
     decltype(auto) visit(F&& f) const {

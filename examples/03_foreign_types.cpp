@@ -19,22 +19,22 @@ private:
     std::array<double, 3> c_;
 };
 
-struct Colour {
+struct Color {
     unsigned char r, g, b;
 };
 
 class Lamp {
 public:
-    Lamp(const Vector& where, const Vector& facing, const Colour& colour, double watts)
-        : where_(where), facing_(facing), colour_(colour), watts_(watts) {}
+    Lamp(const Vector& where, const Vector& facing, const Color& color, double watts)
+        : where_(where), facing_(facing), color_(color), watts_(watts) {}
     const Vector& origin() const { return where_; }
     const Vector& facing() const { return facing_; }
-    Colour colour() const { return colour_; }
+    Color color() const { return color_; }
     double watts() const { return watts_; }
 
 private:
     Vector where_, facing_;
-    Colour colour_;
+    Color color_;
     double watts_;
 };
 
@@ -54,7 +54,7 @@ struct lightcuts::light_traits<engine::Lamp> {
     static engine::Vector axis(const engine::Lamp& lamp) { return lamp.facing(); }
     static glm::vec3 intensity(const engine::Lamp& lamp) {
         // A lamp that emits W watts in proportion to the cosine sends W / pi along its axis.
-        const engine::Colour c = lamp.colour();
+        const engine::Color c = lamp.color();
         return static_cast<float>(lamp.watts() / (255.0 * 3.14159265)) * glm::vec3(c.r, c.g, c.b);
     }
 };
@@ -67,11 +67,11 @@ int main() {
     std::vector<engine::Lamp> lamps;
     for (int i = 0; i < 50'000; ++i) {
         const double along = uniform(-6, 6), z = uniform(0.5, 4), side = i % 2 == 0 ? 1.0 : -1.0;
-        const engine::Colour colour{byte(), byte(), byte()};
+        const engine::Color color{byte(), byte(), byte()};
         if (i % 4 < 2) {
-            lamps.emplace_back(engine::Vector(6 * side, along, z), engine::Vector(-side, 0, 0), colour, 5);
+            lamps.emplace_back(engine::Vector(6 * side, along, z), engine::Vector(-side, 0, 0), color, 5);
         } else {
-            lamps.emplace_back(engine::Vector(along, 6 * side, z), engine::Vector(0, -side, 0), colour, 5);
+            lamps.emplace_back(engine::Vector(along, 6 * side, z), engine::Vector(0, -side, 0), color, 5);
         }
     }
     const lightcuts::LightTree tree(lamps);

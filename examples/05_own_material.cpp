@@ -76,7 +76,7 @@ int main() {
     std::vector<lightcuts::OmniLight<>> lights(50'000);
     for (auto& light : lights) {
         const glm::vec3 at{across(random), across(random), height(random)};
-        light.position = at * (1.0f + 1.0f / glm::length(at));  // none within a metre
+        light.position = at * (1.0f + 1.0f / glm::length(at));  // none within a meter
         light.intensity = glm::vec3(1.0f);
     }
     const lightcuts::LightTree tree(lights);
@@ -84,7 +84,7 @@ int main() {
     const glm::vec3 normal(0.0f, 0.0f, 1.0f), to_eye(0.6f, 0.0f, 0.8f), cream(0.8f, 0.7f, 0.5f);
     const Wax wax{normal, cream, 0.5f};
     const Cartoon cartoon{normal, cream};
-    // A search over all directions found 0.157 of the colour at most. The cap is part of the material from here on: one
+    // A search over all directions found 0.157 of the color at most. The cap is part of the material from here on: one
     // that is too low would darken the picture, one that is too high makes the cuts larger than they need be.
     const lightcuts::Capped velvet{Velvet{normal, to_eye}, 0.17f * glm::vec3(0.5f, 0.1f, 0.2f)};
 

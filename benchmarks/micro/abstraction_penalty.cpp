@@ -92,7 +92,7 @@ private:
 
     struct Node {
         std::uint32_t node = 0, representative = 0;
-        glm::vec3 terms{}, estimate{}, unit_bound{}, bound{};
+        glm::vec3 transfer{}, estimate{}, unit_bound{}, bound{};
         bool bounded = false, queried = false;
     };
     struct Candidate {
@@ -133,8 +133,8 @@ private:
         const bool in_left = parent.representative <= left;
         Node& heir = add_node(in_left ? left : right, parent.unit_bound);
         heir.representative = parent.representative;
-        heir.terms = parent.terms;
-        heir.estimate = finite(heir.terms * clusters_[heir.node].intensity);
+        heir.transfer = parent.transfer;
+        heir.estimate = finite(heir.transfer * clusters_[heir.node].intensity);
         Node& other = add_node(in_left ? right : left, parent.unit_bound);
         other.representative = representatives_[other.node];
         other.queried = true;
@@ -172,11 +172,11 @@ private:
         }
         for (int i = 0; i < count; ++i) {
             Node& node = *members[i];
-            node.terms = in_range[i] > 0.0f ? finite(albedo_ * cosine[i] * geometric[i])
-                                            : terms_of(light_of(node.representative));
-            node.queried = node.terms != glm::vec3(0.0f);
+            node.transfer = in_range[i] > 0.0f ? finite(albedo_ * cosine[i] * geometric[i])
+                                               : terms_of(light_of(node.representative));
+            node.queried = node.transfer != glm::vec3(0.0f);
             if (!node.queried) continue;
-            node.estimate = finite(node.terms * clusters_[node.node].intensity);
+            node.estimate = finite(node.transfer * clusters_[node.node].intensity);
             ++queries_;
         }
     }
@@ -204,7 +204,7 @@ private:
         for (const std::size_t end = nodes_.size(); absorbed_ < end; ++absorbed_) {
             Node& node = nodes_[absorbed_];
             if (node.queried && !is_lit(point_->shadow_origin, light_of(node.representative).position)) {
-                node.terms = node.terms * 0.0f;
+                node.transfer = node.transfer * 0.0f;
                 node.estimate = node.estimate * 0.0f;
             }
             add(node.estimate, 1.0);
@@ -386,7 +386,7 @@ int main(int argc, char** argv) {
         const Tree tree(lights);
         lightcuts::LightcutOptions options;
         options.max_cut = 0;
-        options.few_lights = 0;
+        options.exhaustive_below = 0;
         lightcuts::LightcutScratch<glm::vec3> scratch;
         std::vector<Result> generic(points.size()), by_hand(points.size());
         HandWritten hand(tree, options);

@@ -31,7 +31,7 @@ constexpr const char* explanation = R"(<p>Times are processor seconds of a metho
 eye rays, which are the same for all, and building trees are not in them. Errors are against the exhaustive sum, and of reflected light: emitters and the background in view are left out.
 Lightcuts clamp virtual lights, and so does their exhaustive sum; methods that do not are compared with the sum that does not.
 A curve has one point for each value of its method's parameter; errors below 0.01&nbsp;% are drawn at 0.01&nbsp;%.
-Steps are differences of luminance between neighbouring pixels that the reference does not have, relative to the
+Steps are differences of luminance between neighboring pixels that the reference does not have, relative to the
 brighter of the two. Of methods without clusters, the cut size is the number of lights that are tested.</p>
 )";
 

@@ -113,7 +113,7 @@ private:
 };
 
 /// `right_labels`: they stand above to the right of their points, else below to the left; where curves run side by
-/// side, each is readable if its neighbour's are on the other side. Where there is no room on either, the pointer over
+/// side, each is readable if its neighbor's are on the other side. Where there is no room on either, the pointer over
 /// the point tells, in the page and where the plot is opened by itself.
 std::string curve(const PlotCurve& drawn, const char* color, bool right_labels, double least_y, const Axis& x,
                   const Axis& y, LabelSpace& space) {

@@ -21,7 +21,7 @@ const char* name_of(PlotError error) {
     switch (error) {
         case PlotError::relative_rmse: return "relative RMSE";
         case PlotError::p999_relative: return "99.9th percentile of the pixels' relative error";
-        case PlotError::p999_step: return "99.9th percentile of steps between neighbours";
+        case PlotError::p999_step: return "99.9th percentile of steps between neighbors";
     }
     return "";
 }

@@ -90,12 +90,12 @@ int run(int argc, const char* const* argv) {
     CompareOptions options;
     CLI::App app(
         "Prints how far picture A is from reference B, as JSON; or what a layer of A holds.\n"
-        "Pictures in false colours: black is 0, then blue, red, yellow and white, a quarter of the range each.",
+        "Pictures in false colors: black is 0, then blue, red, yellow and white, a quarter of the range each.",
         "lightcuts-compare");
     app.add_option("A", options.picture, "OpenEXR picture")->required();
     auto* reference = app.add_option("B", options.reference, "OpenEXR reference");
     auto* layer = app.add_option("--layer", options.layer, "show this layer of A, such as cut_size");
-    app.add_option("--out", options.out, "PNG in false colours: of the relative error of luminance, or of the layer");
+    app.add_option("--out", options.out, "PNG in false colors: of the relative error of luminance, or of the layer");
     auto* white = app.add_option("--white", options.white,
                                  "what is white in it (0.1, which is 10 %; of a layer its largest value)");
     layer->excludes(reference);

@@ -54,9 +54,9 @@ Worst worst_of(std::vector<double>& values) {
     return {values.back(), percentile(values, 0.999)};
 }
 
-/// Calls `f(i, j)` for each pixel and its neighbours to the right and below.
+/// Calls `f(i, j)` for each pixel and its neighbors to the right and below.
 template <class F>
-void for_each_neighbours(const Picture& picture, F&& f) {
+void for_each_neighbors(const Picture& picture, F&& f) {
     const auto width = static_cast<std::size_t>(picture.width);
     for (std::size_t i = 0; i < picture.size(); ++i) {
         if ((i + 1) % width != 0) f(i, i + 1);
@@ -73,7 +73,7 @@ std::vector<double> steps_of(const Picture& picture, const Picture& reference) {
     }
     std::vector<double> steps;
     steps.reserve(2 * picture.size());
-    for_each_neighbours(picture, [&](std::size_t i, std::size_t j) {
+    for_each_neighbors(picture, [&](std::size_t i, std::size_t j) {
         const double brighter = static_cast<double>(
             std::max(luminance(reference.pixels[i]), luminance(reference.pixels[j])));
         if (brighter != 0.0) steps.push_back(std::abs(wrong[i] - wrong[j]) / brighter);

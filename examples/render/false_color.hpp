@@ -6,7 +6,7 @@
 
 namespace render {
 
-/// `value` as a colour: black at 0 and below, through blue, red and yellow, each a quarter further, to white at `white`
+/// `value` as a color: black at 0 and below, through blue, red and yellow, each a quarter further, to white at `white`
 /// and above. What is no number is white. Values in [0, 1], before the sRGB curve. pre: white > 0.
 glm::vec3 false_color(double value, double white);
 

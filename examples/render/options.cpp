@@ -168,8 +168,8 @@ bool Options::is_given(const std::string& name) const { return contains(given, n
 
 bool Options::has_aov(const std::string& name) const { return contains(aovs, name); }
 
-lightcuts::ClampOptions Options::clamping() const {
-    return contains(clamping_methods(), method) ? clamp : lightcuts::ClampOptions{};
+lightcuts::ClampingOptions Options::clamping() const {
+    return contains(clamping_methods(), method) ? clamp : lightcuts::ClampingOptions{};
 }
 
 const std::vector<std::string>& clamping_methods() {
@@ -298,7 +298,7 @@ Options parse_options(int argc, const char* const* argv) {
         clamp_ratio = number_in("--clamp-ratio", s, std::numeric_limits<float>::min(), std::nextafter(1.0f, 0.0f),
                                 "a number above 0 and below 1");
     });
-    text("--materials", "full|diffuse", "diffuse: Lambert with the base colour everywhere (full)",
+    text("--materials", "full|diffuse", "diffuse: Lambert with the base color everywhere (full)",
          [&](const std::string& s) {
              if (s != "full" && s != "diffuse") refuse("--materials", s, "full or diffuse");
              options.diffuse_materials = s == "diffuse";

@@ -61,8 +61,8 @@ struct Options {
     float ground = 0.2f;              ///< albedo of what is below the horizon, with `sun_sky`
     std::uint32_t indirect = 0;       ///< about so many virtual lights; 0: direct light only
     /// Of virtual lights, by methods that clamp.
-    lightcuts::ClampOptions clamp = lightcuts::automatic_clamping;
-    bool diffuse_materials = false;   ///< everything is Lambert with its base colour
+    lightcuts::ClampingOptions clamp = lightcuts::automatic_clamping;
+    bool diffuse_materials = false;   ///< everything is Lambert with its base color
     std::filesystem::path reference;  ///< picture to compare with; empty: none
     std::string isa;                  ///< of the ray tracer, one of isa_names(); empty: what Embree chooses
     std::vector<std::string> aovs;    ///< further layers, each of `aov_names()`
@@ -79,7 +79,7 @@ struct Options {
     bool has_aov(const std::string& name) const;
 
     /// What the method does to virtual lights: nothing if it is none of those that clamp.
-    lightcuts::ClampOptions clamping() const;
+    lightcuts::ClampingOptions clamping() const;
     /// Virtual lights would be clamped, but not by this method.
     bool is_clamp_idle() const { return clamp.has_threshold() && !clamping().has_threshold(); }
 };

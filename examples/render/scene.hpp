@@ -59,17 +59,17 @@ struct TextureUse {
     bool is_there() const { return texture != no_texture; }
 };
 
-/// What a surface does with light, as the scene file states it. Colours are linear.
+/// What a surface does with light, as the scene file states it. Colors are linear.
 struct Material {
-    /// microfacet: glTF; specular_glossiness: its older extension; unlit: emits its base colour and reflects nothing;
+    /// microfacet: glTF; specular_glossiness: its older extension; unlit: emits its base color and reflects nothing;
     /// the others: OBJ's illum and Ks.
     enum class Model { microfacet, specular_glossiness, unlit, phong, mirror, glass };
     enum class Alpha { opaque, mask, blend };
 
     std::string name;
     Model model = Model::microfacet;
-    /// microfacet: base colour; specular_glossiness: diffuse albedo; phong: Kd; mirror: reflectance; glass: tint. Times
-    /// the vertex colour.
+    /// microfacet: base color; specular_glossiness: diffuse albedo; phong: Kd; mirror: reflectance; glass: tint. Times
+    /// the vertex color.
     glm::vec3 base_color{0.8f};
     TextureUse base_color_texture;
     float metallic = 0.0f;   ///< microfacet
@@ -96,7 +96,7 @@ struct Material {
     Alpha alpha = Alpha::opaque;
     float alpha_cutoff = 0.5f;
     float base_alpha = 1.0f;
-    TextureUse alpha_texture;  ///< its alpha stands in for the base colour texture's, where there is one
+    TextureUse alpha_texture;  ///< its alpha stands in for the base color texture's, where there is one
 };
 
 /// All places in which a material may name a texture.
@@ -124,7 +124,7 @@ struct Camera {
 };
 
 /// A triangle mesh with everything that lights it and looks at it. Per-vertex arrays have one entry a position, or
-/// none at all: a scene without colours has no array of them. Positions, also those of lights, are world coordinates
+/// none at all: a scene without colors has no array of them. Positions, also those of lights, are world coordinates
 /// less `origin`.
 struct Scene {
     std::string name;
@@ -132,7 +132,7 @@ struct Scene {
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;   ///< empty, or per vertex; a zero normal asks for the flat face's
     std::vector<glm::vec4> tangents;  ///< empty, or per vertex: along u, and the sign of the bitangent; 0: from the uvs
-    std::vector<glm::vec4> colors;    ///< empty, or per vertex, in [0, 1]: times base colour and alpha
+    std::vector<glm::vec4> colors;    ///< empty, or per vertex, in [0, 1]: times base color and alpha
     std::vector<std::vector<glm::vec2>> uv_sets;  ///< each empty, or per vertex
     std::vector<glm::uvec3> triangles;
     std::vector<std::uint32_t> triangle_material;

@@ -124,7 +124,7 @@ struct Exhaustive {
     auto operator()(const Forest& forest, const R& receiver, const Oracle& oracle, Scratch& scratch) const {
         return lightcuts::exhaustive(forest, receiver, oracle, scratch, clamp);
     }
-    lightcuts::ClampOptions clamp;
+    lightcuts::ClampingOptions clamp;
 };
 
 struct Ward {

@@ -62,7 +62,7 @@ Json options_json(const RunReport& report) {
     json["sky_lights"] = o.sky_lights;
     json["ground"] = as_written(o.ground);
     json["indirect"] = o.indirect;
-    const lightcuts::ClampOptions clamp = o.clamping();
+    const lightcuts::ClampingOptions clamp = o.clamping();
     json["clamp"] = clamp.is_automatic()    ? Json("auto")
                     : clamp.has_threshold() ? Json(as_written(clamp.radiance))
                                             : Json("off");
@@ -77,7 +77,7 @@ Json options_json(const RunReport& report) {
 /// How virtual lights were clamped; null if there are none.
 Json clamp_json(const RunReport& report) {
     if (report.scene.virtual_lights.empty()) return nullptr;
-    const lightcuts::ClampOptions clamp = report.options.clamping();
+    const lightcuts::ClampingOptions clamp = report.options.clamping();
     const RenderStatistics& s = report.statistics;
     Json json;
     json["mode"] = clamp.is_automatic() ? "auto" : clamp.has_threshold() ? "value" : "off";

@@ -16,7 +16,7 @@ std::uint64_t hilbert_index(std::uint32_t x, std::uint32_t y, std::uint32_t side
         const bool low = (y & half) != 0;
         const std::uint64_t quadrant = right ? (low ? 2u : 3u) : (low ? 1u : 0u);
         index += static_cast<std::uint64_t>(half) * half * quadrant;
-        // Turn the quadrant so that the curve through it starts and ends where its neighbours' do.
+        // Turn the quadrant so that the curve through it starts and ends where its neighbors' do.
         if (!low) {
             if (right) {
                 x = side - 1 - x;

@@ -13,7 +13,7 @@ struct Tile {
 };
 
 /// The tiles of a picture, `side` pixels wide and high (less at the right and lower edges), along a Hilbert curve:
-/// neighbours in the list are neighbours in the picture. pre: all arguments > 0.
+/// neighbors in the list are neighbors in the picture. pre: all arguments > 0.
 std::vector<Tile> tiles_of(int width, int height, int side);
 
 }  // namespace render

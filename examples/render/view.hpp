@@ -15,7 +15,7 @@ struct EyeRay {
     glm::vec3 direction{0.0f};  ///< unit
 };
 
-/// Where sample `sample` of `spp` lies within a pixel, [0, 1)^2: the centre if it is the only one, else points that
+/// Where sample `sample` of `spp` lies within a pixel, [0, 1)^2: the center if it is the only one, else points that
 /// cover the pixel evenly, shifted by a hash of (seed, pixel).
 glm::vec2 pixel_offset(std::uint64_t seed, std::uint32_t pixel, int sample, int spp);
 

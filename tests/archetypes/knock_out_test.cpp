@@ -133,13 +133,13 @@ static_assert(!Material<MutableMaterial>);
 
 // Bounds of many surfaces
 struct LeastLobe {
-    CosineLobe<float, Cone> cosine_lobe() const { return {cone_of({0.0f, 0.0f, 1.0f}), 1.0f}; }
+    CosineLobe<Bands, Cone> cosine_lobe() const { return {cone_of({0.0f, 0.0f, 1.0f}), black<Bands>()}; }
 };
 struct LobeOfOtherSpectrum {
     CosineLobe<glm::vec3> cosine_lobe() const { return {{0.0f, 0.0f, 1.0f}, glm::vec3(1.0f)}; }
 };
 struct LeastBound {
-    float upper_bound(const OffsetBox&) const { return 1.0f; }
+    Bands upper_bound(const OffsetBox&) const { return black<Bands>(); }
 };
 struct LeastParts {
     template <class F>
@@ -148,10 +148,10 @@ struct LeastParts {
         f(LeastBound{});
     }
 };
-static_assert(ReflectionBound<LeastLobe, float> && ReflectionBound<LeastBound, float> &&
-              ReflectionBound<LeastParts, float> && ReflectionBound<LeastMaterial, float>);
-static_assert(!ReflectionBound<LobeOfOtherSpectrum, float> && !ReflectionBound<LeastBound, glm::vec3> &&
-              !ReflectionBound<NoBound, float> && !Material<LeastLobe>);
+static_assert(ReflectionBound<LeastLobe, Bands> && ReflectionBound<LeastBound, Bands> &&
+              ReflectionBound<LeastParts, Bands> && ReflectionBound<LeastMaterial, Bands>);
+static_assert(!ReflectionBound<LobeOfOtherSpectrum, Bands> && !ReflectionBound<LeastBound, glm::vec3> &&
+              !ReflectionBound<NoBound, Bands> && !Material<LeastLobe>);
 static_assert(BoundPolicy<TwoStageBounds, LeastParts, LightCluster<LeastLight>> &&
               BoundPolicy<SeparateBounds, LeastParts, LightCluster<LeastLight>>);
 

@@ -64,7 +64,7 @@ void expect_shading(const Forest& forest, float visible) {
     estimate_all(exact, scalar, SeparateBounds{});
     estimate_all(exact, batched, LeastPolicy{});
 
-    const LightcutOptions all{.error_ratio = 0.0f, .max_cut = 0, .few_lights = 0};
+    const LightcutOptions all{.error_ratio = 0.0f, .max_cut = 0, .exhaustive_below = 0};
     expect_near(shade(forest, receiver, AlwaysVisible{}, all).radiance, unshadowed);
     expect_exact(shade(forest, receiver, scalar, all).radiance);
     expect_exact(shade(forest, receiver, batched, all).radiance);

@@ -16,11 +16,11 @@ void expect_cuts(const std::vector<L>& lights, const M& material) {
     const auto scalar = [](const auto&, const auto&) { return true; };
     const LeastBatchedOracle batched;
     const auto check = [&](const auto& policy) {
-        const LightcutOptions all{.error_ratio = 0.0f, .max_cut = 0, .few_lights = 0};
+        const LightcutOptions all{.error_ratio = 0.0f, .max_cut = 0, .exhaustive_below = 0};
         expect_near(shade(tree, receiver, scalar, all, policy).radiance, expected);
         expect_near(shade(tree, receiver, batched, all, policy).radiance, expected);
 
-        const LightcutOptions loose{.error_ratio = 0.1f, .few_lights = 0};
+        const LightcutOptions loose{.error_ratio = 0.1f, .exhaustive_below = 0};
         const auto cut = shade(tree, receiver, scalar, loose, policy);
         for (int c = 0; c < 2; ++c) {
             const float error = std::fabs(cut.radiance[c] - expected[c]);
@@ -63,7 +63,7 @@ TEST(UnsetSpectrum, IsClampedInCuts) {
     }
     const LightTree tree(lights);
     const Receiver receiver(glm::vec3(0.0f), Lambert<Unset>{{0.0f, 0.0f, 1.0f}, {0.5f, 0.5f}});
-    const LightcutOptions all{.error_ratio = 0.0f, .max_cut = 0, .few_lights = 0};
+    const LightcutOptions all{.error_ratio = 0.0f, .max_cut = 0, .exhaustive_below = 0};
     expect_near(shade(tree, receiver, AlwaysVisible{}, all).radiance, exhaustive(tree, receiver).radiance);
 }
 

@@ -113,7 +113,7 @@ TEST(MethodContest, ComparesEachMethodWithTheSumThatItApproximates) {
     EXPECT_GT(benchmark::relative_rmse(contest.shadings(ward), contest.shadings(exact)), 1e-3);
 }
 
-TEST(Crossing, LiesBetweenNeighboursOnLogarithmicScales) {
+TEST(Crossing, LiesBetweenNeighborsOnLogarithmicScales) {
     EXPECT_NEAR(benchmark::crossing({1, 100}, {0.1, 10}), 10.0, 1e-9);
     EXPECT_NEAR(benchmark::crossing({1, 2, 8}, {0.5, 0.5, 4}), 2.0 * std::pow(4.0, 1.0 / 3.0), 1e-9);
     EXPECT_EQ(benchmark::crossing({1, 100}, {2, 10}), 0.0);

@@ -11,7 +11,7 @@
 #include <lightcuts/light/spot.hpp>
 #include <lightcuts/material/lambert.hpp>
 #include <lightcuts/material/phong.hpp>
-#include <lightcuts/material/terms.hpp>
+#include <lightcuts/shading/transfer.hpp>
 #include "support/random.hpp"
 
 namespace lightcuts::test {

@@ -48,14 +48,14 @@ TEST(Box, MergeHoldsBothAndIsSmallest) {
     }
 }
 
-TEST(Box, DiagonalAndCentre) {
+TEST(Box, DiagonalAndCenter) {
     const Box b{{-1.0f, 0.0f, 2.0f}, {1.0f, 4.0f, 3.0f}};
     EXPECT_EQ(diagonal2(b), 4.0 + 16.0 + 1.0);
-    EXPECT_EQ(centre(b), glm::dvec3(0.0, 2.0, 2.5));
+    EXPECT_EQ(center(b), glm::dvec3(0.0, 2.0, 2.5));
     const float largest = std::numeric_limits<float>::max();
     const Box whole{glm::vec3(-largest), glm::vec3(largest)};
     EXPECT_TRUE(std::isfinite(diagonal2(whole)));
-    EXPECT_EQ(centre(whole), glm::dvec3(0.0));
+    EXPECT_EQ(center(whole), glm::dvec3(0.0));
 }
 
 TEST(OffsetBox, HoldsEveryExactOffset) {

@@ -93,11 +93,11 @@ inline Configuration make(Draw& draw, double nearest = 0.6) {
 }
 
 /// A unit vector that is hard for `box` in one draw of two: along an axis, through a corner, perpendicular to a
-/// corner's or the centre's offset.
+/// corner's or the center's offset.
 inline glm::dvec3 hard_direction(const lightcuts::OffsetBox& box, Draw& draw) {
     glm::dvec3 corner;
     for (int i = 0; i < 3; ++i) corner[i] = draw.chance(0.5) ? box.lo[i] : box.hi[i];
-    const glm::dvec3 middle = centre(box);
+    const glm::dvec3 middle = center(box);
     const auto unit = [&](const glm::dvec3& v) {
         const double length = glm::length(v);
         return length > 0.0 ? v / length : draw.direction();

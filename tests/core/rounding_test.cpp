@@ -22,7 +22,7 @@ constexpr double double_inf = std::numeric_limits<double>::infinity();
 static_assert(next_up(1.0f) == 1.0f + 0x1p-23f);
 static_assert(round_up(1.0) == 1.0f && round_down(1.0) == 1.0f);
 
-TEST(Rounding, NeighboursAreThoseOfTheStandardLibrary) {
+TEST(Rounding, NeighborsAreThoseOfTheStandardLibrary) {
     configurations::Draw draw(1);
     for (int i = 0; i < 200000; ++i) {
         const double x = (draw.chance(0.5) ? 1.0 : -1.0) * std::ldexp(draw.unit(), draw.below(280) - 150);
@@ -34,7 +34,7 @@ TEST(Rounding, NeighboursAreThoseOfTheStandardLibrary) {
     }
 }
 
-TEST(Rounding, NeighboursOfSpecialValues) {
+TEST(Rounding, NeighborsOfSpecialValues) {
     for (const float f : {0.0f, -0.0f, float_max, -float_max, float_min, -float_min, float_inf, -float_inf}) {
         EXPECT_EQ(next_up(f), std::nextafter(f, float_inf)) << f;
         EXPECT_EQ(next_down(f), std::nextafter(f, -float_inf)) << f;

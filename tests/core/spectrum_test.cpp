@@ -28,13 +28,13 @@ struct Bands {
     }
 };
 
-/// A foreign colour without an index operator, told to the library from outside.
-struct Colour {
+/// A foreign color without an index operator, told to the library from outside.
+struct Color {
     float red = 0.0f, green = 0.0f;
 
-    friend Colour operator+(Colour a, Colour b) { return {a.red + b.red, a.green + b.green}; }
-    friend Colour operator*(Colour a, Colour b) { return {a.red * b.red, a.green * b.green}; }
-    friend Colour operator*(Colour a, float k) { return {a.red * k, a.green * k}; }
+    friend Color operator+(Color a, Color b) { return {a.red + b.red, a.green + b.green}; }
+    friend Color operator*(Color a, Color b) { return {a.red * b.red, a.green * b.green}; }
+    friend Color operator*(Color a, float k) { return {a.red * k, a.green * k}; }
 };
 
 /// Has no channels.
@@ -47,10 +47,10 @@ struct NoChannels {
 }  // namespace foreign_spectra
 
 template <>
-struct lightcuts::spectrum_traits<foreign_spectra::Colour> {
+struct lightcuts::spectrum_traits<foreign_spectra::Color> {
     static constexpr int channels = 2;
-    static float channel(const foreign_spectra::Colour& c, int i) { return i == 0 ? c.red : c.green; }
-    static void set(foreign_spectra::Colour& c, int i, float value) { (i == 0 ? c.red : c.green) = value; }
+    static float channel(const foreign_spectra::Color& c, int i) { return i == 0 ? c.red : c.green; }
+    static void set(foreign_spectra::Color& c, int i, float value) { (i == 0 ? c.red : c.green) = value; }
 };
 
 namespace {
@@ -58,7 +58,7 @@ namespace {
 using namespace lightcuts;
 using namespace foreign_spectra;
 
-static_assert(Spectrum<float> && Spectrum<double> && Spectrum<glm::vec3> && Spectrum<Bands> && Spectrum<Colour>);
+static_assert(Spectrum<float> && Spectrum<double> && Spectrum<glm::vec3> && Spectrum<Bands> && Spectrum<Color>);
 static_assert(!Spectrum<NoChannels> && !Spectrum<int*>);
 static_assert(channels_of<float> == 1 && channels_of<glm::vec3> == 3 && channels_of<Bands> == 4);
 static_assert(black<float>() == 0.0f && is_black(black<glm::vec3>()));
@@ -85,7 +85,7 @@ TEST(Spectrum, EveryModelReadsAndWritesItsChannels) {
     check_channels<double>();
     check_channels<glm::vec3>();
     check_channels<Bands>();
-    check_channels<Colour>();
+    check_channels<Color>();
 }
 
 TEST(Spectrum, OneBrightChannelIsNotBlack) {

@@ -59,8 +59,8 @@ static_assert(!BoundedOracle<Curtain, R, OmniLight<>> && !BoundedOracle<AlwaysVi
 template <class Lights, class Oracle>
 void expect_sound(const Lights& lights, const R& receiver, const Oracle& oracle) {
     const V exact = exhaustive(lights, receiver, oracle).radiance;
-    const V all = shade(lights, receiver, oracle, {.error_ratio = 0.0f, .max_cut = 0, .few_lights = 0}).radiance;
-    const CutResult<V> cut = shade(lights, receiver, oracle, {.max_cut = 0, .few_lights = 0});
+    const V all = shade(lights, receiver, oracle, {.error_ratio = 0.0f, .max_cut = 0, .exhaustive_below = 0}).radiance;
+    const CutResult<V> cut = shade(lights, receiver, oracle, {.max_cut = 0, .exhaustive_below = 0});
     for (int c = 0; c < 3; ++c) {
         EXPECT_NEAR(all[c], exact[c], 1e-5f * exact[c]);
         EXPECT_LE(std::fabs(cut.radiance[c] - exact[c]), cut.error_bound[c] + 1e-5f * exact[c]);
@@ -91,7 +91,7 @@ TEST(BoundedOracle, SparesWhatIsHidden) {
     Room<V> room(12);
     const auto omni = room.omni(3000);
     const LightTree tree(omni);
-    const LightcutOptions fine{.error_ratio = 0.005f, .max_cut = 0, .few_lights = 0};
+    const LightcutOptions fine{.error_ratio = 0.005f, .max_cut = 0, .exhaustive_below = 0};
     std::size_t plain = 0, bounded = 0, asked = 0, splits = 0;
     for (const auto& receiver : room.diffuse_receivers(30)) {
         plain += shade(tree, receiver, Curtain{}, fine).queries;

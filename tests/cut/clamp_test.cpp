@@ -65,7 +65,7 @@ double sum_under(double fixed, const std::vector<Contribution>& all, double thre
 }
 
 /// The threshold that is stated: a share of the total, but twice the mean of few lights; none if that is all.
-double stated_threshold(const ClampOptions& clamp, const std::vector<Contribution>& all, double total,
+double stated_threshold(const ClampingOptions& clamp, const std::vector<Contribution>& all, double total,
                         double whole = 0.0) {
     double lights = 0.0;
     for (const Contribution& c : all) {
@@ -76,7 +76,7 @@ double stated_threshold(const ClampOptions& clamp, const std::vector<Contributio
 }
 
 /// `whole`: radiance of a light that counts as one. By default, each that arrives.
-detail::ClampedTotal<float> solve(const ClampOptions& clamp, double fixed, const std::vector<Contribution>& all,
+detail::ClampedTotal<float> solve(const ClampingOptions& clamp, double fixed, const std::vector<Contribution>& all,
                                   double guess = 0.0, double tolerance = 1e-9, double whole = 0.0) {
     const auto visit = [&](auto&& f) {
         for (const Contribution& c : all) f(c.raw, c.lights);
@@ -143,7 +143,7 @@ TEST(ClampedTotal, OfFewLightsHoldsASpike) {
 // From 2 / ratio lights on, the stated ratio, to the last bit.
 TEST(ClampedTotal, OfManyLightsHasTheStatedRatio) {
     for (const auto& [ratio, enough] : {std::pair(0.01f, 200), {0.002f, 1000}, {0.1f, 20}, {0.003f, 667}}) {
-        const ClampOptions clamp{.ratio = ratio};
+        const ClampingOptions clamp{.ratio = ratio};
         EXPECT_GT(detail::effective_ratio(clamp, enough - 1), static_cast<double>(ratio));
         for (const int n : {enough, enough + 1, 3 * enough, 1 << 30}) {
             EXPECT_EQ(detail::effective_ratio(clamp, n), static_cast<double>(ratio)) << n;
@@ -165,11 +165,11 @@ TEST(ClampedTotal, IncreasesWithContributionsAndLimits) {
             c.raw = random.chance(0.2) ? 0.0f : static_cast<float>(random.decades(-3.0, 3.0));
             c.lights = random.chance(0.1) ? infinity : static_cast<double>(1 + random.below(5));
         }
-        const ClampOptions clamp{.radiance = random.chance(0.5) ? std::numeric_limits<float>::infinity()
-                                                                : static_cast<float>(random.decades(-3.0, 3.0)),
-                                 .ratio = static_cast<float>(random.decades(-3.0, -0.5))};
+        const ClampingOptions clamp{.radiance = random.chance(0.5) ? std::numeric_limits<float>::infinity()
+                                                                   : static_cast<float>(random.decades(-3.0, 3.0)),
+                                    .ratio = static_cast<float>(random.decades(-3.0, -0.5))};
         const double total = solve(clamp, 0.0, all).total[0];
-        ClampOptions larger = clamp;
+        ClampingOptions larger = clamp;
         larger.ratio *= random.real(1.0, 3.0);
         larger.radiance *= random.real(1.0, 3.0);
         EXPECT_GE(solve(larger, 0.0, all).total[0], total * (1.0 - 1e-7));
@@ -191,9 +191,9 @@ TEST(ClampedTotal, SolvesItsEquationFromAnyGuess) {
             c.lights = random.chance(0.1) ? infinity : static_cast<double>(1 + random.below(20));
         }
         const double fixed = random.chance(0.3) ? 0.0 : random.decades(-3.0, 3.0);
-        const ClampOptions clamp{.radiance = random.chance(0.5) ? std::numeric_limits<float>::infinity()
-                                                                : static_cast<float>(random.decades(-3.0, 3.0)),
-                                 .ratio = static_cast<float>(random.decades(-4.0, -0.5))};
+        const ClampingOptions clamp{.radiance = random.chance(0.5) ? std::numeric_limits<float>::infinity()
+                                                                   : static_cast<float>(random.decades(-3.0, 3.0)),
+                                    .ratio = static_cast<float>(random.decades(-4.0, -0.5))};
         const double whole = random.chance(0.3) ? 0.0 : random.decades(-8.0, 4.0);
         const auto solved = solve(clamp, fixed, all, 0.0, 1e-9, whole);
         const double total = solved.total[0];
@@ -271,9 +271,9 @@ TEST(ClampedError, BoundsTheDifferenceOfTotalsWithThresholdsOfTheirOwn) {
         for (std::size_t n = 1 + random.below(few ? 12 : 200); n > 0; --n) {
             nodes.push_back(random_node(random, exact, full, crowded));
         }
-        const ClampOptions clamp{.radiance = random.chance(0.7) ? std::numeric_limits<float>::infinity()
-                                                                : static_cast<float>(random.decades(-2.0, 1.0)),
-                                 .ratio = static_cast<float>(random.decades(-3.0, -1.0))};
+        const ClampingOptions clamp{.radiance = random.chance(0.7) ? std::numeric_limits<float>::infinity()
+                                                                   : static_cast<float>(random.decades(-2.0, 1.0)),
+                                    .ratio = static_cast<float>(random.decades(-3.0, -1.0))};
         std::vector<Contribution> estimates, lights;
         for (const Node& n : nodes) {
             estimates.push_back({n.estimate, n.lights});

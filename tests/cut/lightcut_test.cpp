@@ -67,8 +67,9 @@ TEST(Shade, GivesMaterialsUnitVectorsOnly) {
     const LightTree tree(lights);
     std::size_t calls = 0;
     const Receiver receiver(V(0.0f), Expectant{&calls});
-    EXPECT_GT(shade(tree, receiver, AlwaysVisible{}, {.error_ratio = 0.0f, .max_cut = 0, .few_lights = 0}).radiance,
-              0.0f);
+    EXPECT_GT(
+        shade(tree, receiver, AlwaysVisible{}, {.error_ratio = 0.0f, .max_cut = 0, .exhaustive_below = 0}).radiance,
+        0.0f);
     EXPECT_GT(exhaustive(tree, receiver).radiance, 0.0f);
     EXPECT_GT(calls, 0u);
 }
@@ -96,7 +97,7 @@ TEST(Shade, TakesAnyContiguousRanges) {
     const LightTree a(vector), b(array), c(plain), d(span);
     auto receivers = room.glossy_receivers(3);
     using R = std::ranges::range_value_t<decltype(receivers)>;
-    const LightcutOptions options{.few_lights = 0};
+    const LightcutOptions options{.exhaustive_below = 0};
     std::vector<CutResult<V>> expected;
     scratch_of<LightTree<OmniLight<>>> scratch;
     shade(a, receivers, AlwaysVisible{}, expected, scratch, options);
@@ -129,7 +130,7 @@ TEST(ShadeDeathTest, NoticesABoundBelowWhatTheMaterialReturns) {
     const LightTree tree(lights);
     const WithoutCosine material{{{0.0f, 0.0f, 1.0f}, V(0.5f)}};
     const Receiver receiver(V(0.0f), material);
-    EXPECT_DEATH(shade(tree, receiver, AlwaysVisible{}, {.few_lights = 0}), "a bound is below");
+    EXPECT_DEATH(shade(tree, receiver, AlwaysVisible{}, {.exhaustive_below = 0}), "a bound is below");
 }
 #endif
 
@@ -139,7 +140,7 @@ TEST(Shade, OfSeveralTreesIsTheSumOverThem) {
     const auto distant = room.distant(50);
     const LightTree a(omni);
     const LightTree b(distant);
-    const LightcutOptions all{.error_ratio = 0.0f, .max_cut = 0, .few_lights = 0};
+    const LightcutOptions all{.error_ratio = 0.0f, .max_cut = 0, .exhaustive_below = 0};
     for (const auto& receiver : room.diffuse_receivers(10)) {
         const V sum = shade(a, receiver, AlwaysVisible{}, all).radiance +
                       shade(b, receiver, AlwaysVisible{}, all).radiance;
@@ -160,7 +161,7 @@ TEST(Shade, KeepsOneClusterATreeWhateverTheLimit) {
         EXPECT_EQ(shade(forest, receiver, AlwaysVisible{}, {.error_ratio = 0.0f, .max_cut = 3}).cut_size, 3u);
         // Beyond the number of lights a limit does not matter.
         const auto result = shade(forest, receiver, AlwaysVisible{},
-                                  {.error_ratio = 0.0f, .max_cut = 1000, .few_lights = 0});
+                                  {.error_ratio = 0.0f, .max_cut = 1000, .exhaustive_below = 0});
         EXPECT_LE(result.cut_size, 100u);
         EXPECT_EQ(result.stop, StopReason::converged);
     }
@@ -198,7 +199,7 @@ TEST(Shade, StartsWithAllLightsWhereTheyAreFew) {
         EXPECT_EQ(cut.queries, exact.queries);
         EXPECT_EQ(cut.stop, StopReason::converged);
 
-        EXPECT_LT(shade(forest, receiver, oracle, {.few_lights = 126}).cut_size, 127u);
+        EXPECT_LT(shade(forest, receiver, oracle, {.exhaustive_below = 126}).cut_size, 127u);
         EXPECT_LE(shade(forest, receiver, oracle, {.max_cut = 126}).cut_size, 126u);
         EXPECT_EQ(shade(forest, receiver, oracle, {.max_cut = 127}).cut_size, 127u);
     }
@@ -217,7 +218,7 @@ TEST(Shade, OfFewLightsIsTheSumHoweverItIsAskedFor) {
     const Occluders occluders = room.occluders();
     EstimateScratch<V> sums;
     scratch_of<decltype(forest)> scratch;
-    for (const ClampOptions& clamp : {ClampOptions{}, automatic_clamping, ClampOptions{.radiance = 1e-3f}}) {
+    for (const ClampingOptions& clamp : {ClampingOptions{}, automatic_clamping, ClampingOptions{.radiance = 1e-3f}}) {
         const LightcutOptions options{.clamp = clamp};
         std::vector<CutResult<V>> batched, scalar;
         shade(forest, receivers, BatchedOccluders{occluders}, batched, scratch, options);
@@ -264,7 +265,7 @@ TEST(Shade, RefinesDarknessLessWithAdaptation) {
     }
 }
 
-// The child that holds the parent's representative takes its terms over: a refined cut needs no ray twice.
+// The child that holds the parent's representative takes its transfer over: a refined cut needs no ray twice.
 TEST(Shade, TracesOneRayALightAtMost) {
     struct Remembering {
         std::vector<int>& asked;
@@ -279,7 +280,8 @@ TEST(Shade, TracesOneRayALightAtMost) {
     const auto lights = room.omni(300);
     for (const auto& receiver : room.diffuse_receivers(5)) {
         for (const LightcutOptions& options :
-             {LightcutOptions{.few_lights = 0}, LightcutOptions{.error_ratio = 0.0f, .max_cut = 0, .few_lights = 0}}) {
+             {LightcutOptions{.exhaustive_below = 0},
+              LightcutOptions{.error_ratio = 0.0f, .max_cut = 0, .exhaustive_below = 0}}) {
             const LightTree tree(lights);  // one representative a node: each light is asked about once
             std::vector<int> asked(lights.size(), 0);
             const auto result = shade(tree, receiver, Remembering{asked}, options);
@@ -319,7 +321,8 @@ TEST(Lightcut, CanBeStoppedAnywhere) {
     for (const auto& receiver : room.diffuse_receivers(10)) {
         EstimateScratch<V> scratch;
         const V exact = exhaustive(forest, receiver, oracle, scratch).radiance;
-        Lightcut cut(forest, receiver, oracle, LightcutOptions{.error_ratio = 0.01f, .max_cut = 0, .few_lights = 0});
+        Lightcut cut(forest, receiver, oracle,
+                     LightcutOptions{.error_ratio = 0.01f, .max_cut = 0, .exhaustive_below = 0});
         do {
             const CutResult<V> result = cut.result();
             for (int c = 0; c < 3; ++c) {
@@ -349,7 +352,7 @@ TEST(Shade, LooksAtEveryChannel) {
     for (const auto& receiver : room.diffuse_receivers(20)) {
         const V exact = exhaustive(LightForest(tree), receiver, AlwaysVisible{}, scratch).radiance;
         const auto result = shade(tree, receiver, AlwaysVisible{},
-                                  {.error_ratio = 0.01f, .max_cut = 0, .few_lights = 0});
+                                  {.error_ratio = 0.01f, .max_cut = 0, .exhaustive_below = 0});
         EXPECT_NEAR(result.radiance.z, exact.z, 0.1f * exact.z);
     }
 }

@@ -31,7 +31,7 @@ TEST(Exhaustive, IsTheSumOverAllLightsOfAllTrees) {
         glm::dvec3 sum(0.0);
         std::uint32_t rays = 0;
         const auto add = [&](const auto& light) {
-            const V contribution = unshadowed_terms(receiver, light) * light.intensity;
+            const V contribution = unshadowed_transfer(receiver, light) * light.intensity;
             if (contribution == V(0.0f)) return;
             ++rays;
             sum += glm::dvec3(contribution) * static_cast<double>(scalar(receiver, light));

@@ -113,7 +113,7 @@ TEST(SampleLight, CanDrawWhateverCanContribute) {
         const auto expect = [&](const auto& lights, const auto& of_lights) {
             for (std::size_t i = 0; i < lights.size(); ++i) {
                 sum += of_lights[i];
-                if (!is_black(unshadowed_terms(receiver, lights[i]))) { EXPECT_GT(of_lights[i], 0.0); }
+                if (!is_black(unshadowed_transfer(receiver, lights[i]))) { EXPECT_GT(of_lights[i], 0.0); }
             }
         };
         expect(oriented, probabilities[0]);

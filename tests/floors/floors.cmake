@@ -4,7 +4,7 @@
 # includes the folders before it, and nothing includes the umbrella. A subfolder is part of its folder: who may include
 # the one may include the other.
 cmake_minimum_required(VERSION 3.24)
-set(floors core light material visibility tree bound cut estimate lightcuts.hpp source product piecewise reconstruct
+set(floors core light material shading visibility tree bound cut estimate lightcuts.hpp source product piecewise reconstruct
            matrix adapt)
 set(subfolders tree/build)
 

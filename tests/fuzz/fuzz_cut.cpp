@@ -150,14 +150,14 @@ LightcutOptions read_options(Bytes& bytes) {
     LightcutOptions options;
     options.error_ratio = bytes.below(3) == 0 ? 0.0f : bytes.between(0.0f, 0.5f);
     options.max_cut = bytes.below(3) == 0 ? bytes.below(40) : 0;
-    options.few_lights = bytes.below(4) == 0 ? 256 : 0;
+    options.exhaustive_below = bytes.below(4) == 0 ? 256 : 0;
     options.adaptation = bytes.below(4) == 0 ? bytes.between(0.0f, 1.0f) : 0.0f;
     options.seed = bytes.byte();
     options.round_fraction = bytes.below(4) == 0 ? 1.0 : 0.1;
     constexpr float infinity = std::numeric_limits<float>::infinity();
     options.clamp.ratio = bytes.below(2) == 0 ? infinity : bytes.below(2) == 0 ? 0.01f : bytes.between(0.0f, 1.0f);
     options.clamp.radiance = bytes.below(4) == 0 ? std::fabs(bytes.number(1e6f)) : infinity;
-    options.clamp.terms = bytes.below(4) == 0 ? std::fabs(bytes.number(1e6f)) : infinity;
+    options.clamp.transfer = bytes.below(4) == 0 ? std::fabs(bytes.number(1e6f)) : infinity;
     return options;
 }
 

@@ -14,7 +14,7 @@
 #include <lightcuts/light/oriented.hpp>
 #include <lightcuts/material/lambert.hpp>
 #include <lightcuts/material/phong.hpp>
-#include <lightcuts/material/receiver.hpp>
+#include <lightcuts/shading/receiver.hpp>
 #include "support/random.hpp"
 
 namespace lightcuts::test {
@@ -158,7 +158,7 @@ TEST(ClampingIsContinuous, InEveryContribution) {
         for (float& raw : all) raw = static_cast<float>(random.decades(random.chance(0.5) ? -1.0 : -4.0, 0.0));
         const double whole = random.decades(-4.0, 0.0);
         const double fixed = random.chance(0.5) ? 0.0 : random.decades(-4.0, 0.0);
-        const ClampOptions clamp{.ratio = static_cast<float>(random.decades(-3.0, -0.5))};
+        const ClampingOptions clamp{.ratio = static_cast<float>(random.decades(-3.0, -0.5))};
         const auto total_of = [&] {
             const auto visit = [&](auto&& f) {
                 for (const float raw : all) f(raw, 1.0);
@@ -205,7 +205,7 @@ void expect_error_within_bound(Random& random, int& bounded, int& unequal) {
     const LightcutOptions options{
         .error_ratio = random.chance(0.3) ? 0.0f : random.real(0.01, 0.5),
         .max_cut = random.chance(0.5) ? 0 : 1 + random.below(40),
-        .few_lights = 0,
+        .exhaustive_below = 0,
         .seed = random.bits(),
         .clamp = {.radiance = random.chance(0.8) ? std::numeric_limits<float>::infinity()
                                                  : static_cast<float>(random.decades(-6, 0)),

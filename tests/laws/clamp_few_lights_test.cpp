@@ -12,7 +12,7 @@
 #include <lightcuts/light/clampable.hpp>
 #include <lightcuts/light/oriented.hpp>
 #include <lightcuts/material/lambert.hpp>
-#include <lightcuts/material/receiver.hpp>
+#include <lightcuts/shading/receiver.hpp>
 
 namespace lightcuts::test {
 namespace {
@@ -41,14 +41,15 @@ TEST(ClampingOfFewLights, DoesNotDarkenLightsThatAreAlike) {
         const V all = exhaustive(tree, floor_point, oracle).radiance;
         const V clamped = exhaustive(tree, floor_point, oracle, automatic_clamping).radiance;
         for (int c = 0; c < 3; ++c) EXPECT_NEAR(clamped[c], all[c], 1e-5f * all[c]) << n;
-        for (const LightcutOptions& options : {LightcutOptions{.error_ratio = 0.0f, .max_cut = 0, .few_lights = 0},
-                                               LightcutOptions{.few_lights = 0}, LightcutOptions{.few_lights = 300}}) {
+        for (const LightcutOptions& options :
+             {LightcutOptions{.error_ratio = 0.0f, .max_cut = 0, .exhaustive_below = 0},
+              LightcutOptions{.exhaustive_below = 0}, LightcutOptions{.exhaustive_below = 300}}) {
             LightcutOptions with = options;
             with.clamp = automatic_clamping;
             const V cut = shade(tree, floor_point, oracle, with).radiance;
             const V reference = shade(tree, floor_point, oracle, options).radiance;
             for (int c = 0; c < 3; ++c) EXPECT_NEAR(cut[c], reference[c], 0.05f * reference[c]) << n;
-            if (options.error_ratio > 0.0f && options.few_lights == 0) continue;
+            if (options.error_ratio > 0.0f && options.exhaustive_below == 0) continue;
             for (int c = 0; c < 3; ++c) EXPECT_NEAR(cut[c], all[c], 1e-5f * all[c]) << n;
         }
     };
@@ -71,7 +72,7 @@ TEST(ClampingOfFewLights, HoldsASpikeAmongFewLights) {
         const float ratio = std::max(0.01f, 2.0f / static_cast<float>(n));
         const V sum = exhaustive(tree, floor_point, AlwaysVisible{}, automatic_clamping).radiance;
         const auto exact = LightcutOptions{
-            .error_ratio = 0.0f, .max_cut = 0, .few_lights = 0, .clamp = automatic_clamping};
+            .error_ratio = 0.0f, .max_cut = 0, .exhaustive_below = 0, .clamp = automatic_clamping};
         const V cut = shade(tree, floor_point, AlwaysVisible{}, exact).radiance;
         for (int c = 0; c < 3; ++c) {
             const float expected = others * one[c] / (1.0f - ratio);
@@ -97,13 +98,13 @@ constexpr auto is_far = [](const auto&, const auto& light) { return light.positi
 
 /// Cuts of which the first look at the cluster of all finds a far light or a near one, each about as often.
 template <class F>
-void for_each_first_look(int far, int near, const ClampOptions& clamp, F&& f) {
+void for_each_first_look(int far, int near, const ClampingOptions& clamp, F&& f) {
     const auto lights = far_and_near(far, near, static_cast<float>(near) / static_cast<float>(far));
     const LightTree direct(glow);
     const LightTree tree(lights, {.representatives = 8});
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
         const LightForest forest(direct, tree);
-        const LightcutOptions options{.max_cut = 0, .few_lights = 0, .seed = seed, .clamp = clamp};
+        const LightcutOptions options{.max_cut = 0, .exhaustive_below = 0, .seed = seed, .clamp = clamp};
         Lightcut cut(forest, floor_point, is_far, options);
         while (cut.step()) {}
         f(cut);
@@ -164,7 +165,7 @@ TEST(ClampingOfFewLights, FindsTheOnlyOneThatArrives) {
         const auto seen = [&](const auto&, const Virtual& light) { return light.position == only.position; };
         const Estimate<V> exact = exhaustive(tree, floor_point, seen, automatic_clamping);
         const CutResult<V> result = shade(tree, floor_point, seen,
-                                          {.max_cut = 0, .few_lights = 0, .clamp = automatic_clamping});
+                                          {.max_cut = 0, .exhaustive_below = 0, .clamp = automatic_clamping});
         for (int c = 0; c < 3; ++c) {
             EXPECT_GT(exact.radiance[c], 0.0f);
             EXPECT_NEAR(result.radiance[c], exact.radiance[c], 1e-5f * exact.radiance[c]);

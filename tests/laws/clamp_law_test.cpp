@@ -26,14 +26,14 @@ using Direct = OrientedPointLight<V>;
 using Virtual = VirtualPointLight<V>;
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
-constexpr ClampOptions every_clamping[] = {{},
-                                           {.radiance = 1e-3f},
-                                           {.radiance = 0.0f},
-                                           automatic_clamping,
-                                           {.ratio = 0.002f},
-                                           {.radiance = 3e-3f, .ratio = 0.01f},
-                                           {.terms = 0.05f},
-                                           {.ratio = 0.01f, .terms = 0.05f}};
+constexpr ClampingOptions every_clamping[] = {{},
+                                              {.radiance = 1e-3f},
+                                              {.radiance = 0.0f},
+                                              automatic_clamping,
+                                              {.ratio = 0.002f},
+                                              {.radiance = 3e-3f, .ratio = 0.01f},
+                                              {.transfer = 0.05f},
+                                              {.ratio = 0.01f, .transfer = 0.05f}};
 
 std::vector<Virtual> marked(const std::vector<Direct>& lights) {
     std::vector<Virtual> all(lights.size());
@@ -72,9 +72,9 @@ std::array<double, 3> arriving(const std::vector<Virtual>& lights, const Receive
     const glm::dvec3 whole = 1e-9 * intensity / diagonal2(box);
     std::array<double, 3> count{};
     for (const Virtual& light : lights) {
-        const V terms = glm::min(unshadowed_terms(receiver, light), V(limit)) * oracle(receiver, light);
+        const V transfer = glm::min(unshadowed_transfer(receiver, light), V(limit)) * oracle(receiver, light);
         for (int c = 0; c < 3; ++c) {
-            const double radiance = static_cast<double>(terms[c] * light.intensity[c]);
+            const double radiance = static_cast<double>(transfer[c] * light.intensity[c]);
             count[static_cast<std::size_t>(c)] += radiance > 0.0 ? std::min(1.0, radiance / whole[c]) : 0.0;
         }
     }
@@ -82,7 +82,7 @@ std::array<double, 3> arriving(const std::vector<Virtual>& lights, const Receive
 }
 
 /// The share of the total that one of `lights` may add, as it is stated; infinite if it may add all.
-float stated_ratio(const ClampOptions& clamp, double lights) {
+float stated_ratio(const ClampingOptions& clamp, double lights) {
     const float ratio = std::max(clamp.ratio, static_cast<float>(2.0 / lights));
     return ratio < 1.0f ? ratio : infinity;
 }
@@ -97,7 +97,7 @@ void expect_error_within_bound(const Forest& forest, const std::vector<Virtual>&
     EstimateScratch<V> scratch;
     for (const auto& receiver : receivers) {
         const Estimate<V> exact = exhaustive(forest, receiver, scalar, scratch, options.clamp);
-        const std::array<double, 3> lights = arriving(indirect, receiver, scalar, options.clamp.terms);
+        const std::array<double, 3> lights = arriving(indirect, receiver, scalar, options.clamp.transfer);
         Lightcut cut(forest, receiver, batched, options);
         // At every step, not only at the last.
         for (bool more = true; more; more = cut.step()) {
@@ -166,12 +166,12 @@ void expect_errors_within_bounds(Room<V>& room, std::size_t count, MakeReceivers
     const Occluders occluders = room.occluders();
     const LightTree a(direct);
     const LightTree b(indirect, {.representatives = 4});
-    for (const ClampOptions& clamp : every_clamping) {
+    for (const ClampingOptions& clamp : every_clamping) {
         for (const LightcutOptions& options :
-             {LightcutOptions{.few_lights = 0, .clamp = clamp},
-              LightcutOptions{.error_ratio = 0.0f, .max_cut = 0, .few_lights = 0, .clamp = clamp},
-              LightcutOptions{.error_ratio = 0.1f, .max_cut = 30, .few_lights = 0, .clamp = clamp},
-              LightcutOptions{.max_cut = 0, .few_lights = 0, .adaptation = 0.05f, .clamp = clamp}}) {
+             {LightcutOptions{.exhaustive_below = 0, .clamp = clamp},
+              LightcutOptions{.error_ratio = 0.0f, .max_cut = 0, .exhaustive_below = 0, .clamp = clamp},
+              LightcutOptions{.error_ratio = 0.1f, .max_cut = 30, .exhaustive_below = 0, .clamp = clamp},
+              LightcutOptions{.max_cut = 0, .exhaustive_below = 0, .adaptation = 0.05f, .clamp = clamp}}) {
             expect_error_within_bound(LightForest(a, b), indirect, receivers, occluders, options, through);
             expect_error_within_bound(LightForest(b), indirect, receivers, occluders, options, through);
         }
@@ -206,7 +206,8 @@ TEST(Clamping, TamesLightsAtTheReceiver) {
     const LightForest forest(a, b);
     for (std::size_t i = 0; i < receivers.size(); i += 2) {
         const auto wild = shade(forest, receivers[i]);
-        const auto tame = shade(forest, receivers[i], AlwaysVisible{}, {.few_lights = 0, .clamp = automatic_clamping});
+        const auto tame = shade(forest, receivers[i], AlwaysVisible{},
+                                {.exhaustive_below = 0, .clamp = automatic_clamping});
         const auto fixed = shade(forest, receivers[i], AlwaysVisible{}, {.clamp = {.radiance = 1e-3f}});
         for (int c = 0; c < 3; ++c) {
             EXPECT_GT(wild.radiance[c], 10.0f * tame.radiance[c]);
@@ -231,7 +232,8 @@ TEST(Clamping, ChangesNoBitIfItIsOff) {
     const Occluders occluders = room.occluders();
     const BatchedOccluders oracle{occluders, 0.1f};
     for (const LightcutOptions& options :
-         {LightcutOptions{.few_lights = 0}, LightcutOptions{.error_ratio = 0.005f, .max_cut = 60, .few_lights = 0}}) {
+         {LightcutOptions{.exhaustive_below = 0},
+          LightcutOptions{.error_ratio = 0.005f, .max_cut = 60, .exhaustive_below = 0}}) {
         std::vector<CutResult<V>> unmarked(receivers.size()), off(receivers.size());
         LightcutScratch<V> scratch;
         LightcutScratch<V, true> clamping;
@@ -259,7 +261,8 @@ TEST(Clamping, DoesNotDependOnTilesOrThreads) {
         execute(receivers.size() / tile, [&](std::size_t t) {
             scratch_of<decltype(forest)> scratch;
             shade(forest, std::span(receivers).subspan(t * tile, tile), oracle,
-                  std::span(results).subspan(t * tile, tile), scratch, {.few_lights = 0, .clamp = automatic_clamping});
+                  std::span(results).subspan(t * tile, tile), scratch,
+                  {.exhaustive_below = 0, .clamp = automatic_clamping});
         });
         return results;
     };
@@ -279,7 +282,8 @@ TEST(Clamping, IsNotFooledByDarkRepresentatives) {
     const auto slit = [](const auto&, const Virtual& light) { return light.position.z > 1.5f; };
     for (const auto& receiver : room.diffuse_receivers(30)) {
         const auto exact = exhaustive(tree, receiver, slit, automatic_clamping);
-        const auto result = shade(tree, receiver, slit, {.max_cut = 0, .few_lights = 0, .clamp = automatic_clamping});
+        const auto result = shade(tree, receiver, slit,
+                                  {.max_cut = 0, .exhaustive_below = 0, .clamp = automatic_clamping});
         for (int c = 0; c < 3; ++c) {
             EXPECT_GE(result.radiance[c], 0.5f * exact.radiance[c]);
             EXPECT_LE(std::fabs(result.radiance[c] - exact.radiance[c]),
@@ -327,15 +331,15 @@ TEST(Clamping, OfDarknessIsDarkness) {
     const LightTree a(direct);
     const LightTree b(lights);
     const auto blocked = [](const auto&, const auto&) { return false; };
-    for (const ClampOptions& clamp : every_clamping) {
+    for (const ClampingOptions& clamp : every_clamping) {
         for (const auto& receiver : room.diffuse_receivers(10)) {
-            const auto result = shade(LightForest(a, b), receiver, blocked, {.few_lights = 0, .clamp = clamp});
+            const auto result = shade(LightForest(a, b), receiver, blocked, {.exhaustive_below = 0, .clamp = clamp});
             EXPECT_EQ(result.radiance, V(0.0f));
             for (int c = 0; c < 3; ++c) EXPECT_FALSE(std::isnan(result.error_bound[c] + result.clamp_threshold[c]));
             const auto exact = exhaustive(LightForest(a, b), receiver, blocked, clamp);
             EXPECT_EQ(exact.radiance, V(0.0f));
             EXPECT_EQ(exact.clamp_threshold, V(clamp.radiance)) << "a share of nothing is no limit";
-            const auto lit = shade(b, receiver, AlwaysVisible{}, {.few_lights = 0, .clamp = clamp});
+            const auto lit = shade(b, receiver, AlwaysVisible{}, {.exhaustive_below = 0, .clamp = clamp});
             EXPECT_EQ(lit.radiance.z, 0.0f);
             for (int c = 0; c < 3; ++c) EXPECT_TRUE(lit.radiance[c] >= 0.0f && lit.radiance[c] < infinity);
         }

@@ -11,7 +11,7 @@
 #include <glm/common.hpp>
 
 #include <lightcuts/bound/policy.hpp>
-#include <lightcuts/material/terms.hpp>
+#include <lightcuts/shading/transfer.hpp>
 #include "laws/cluster_configuration.hpp"
 
 namespace lightcuts::test {
@@ -49,16 +49,16 @@ inline std::string text_of(const glm::vec3& v) {
     return out.str();
 }
 
-/// The terms of one light as a cut computes them, several at a time.
+/// The transfer of one light as a cut computes them, several at a time.
 template <class M, Light L>
-glm::vec3 terms_in_lane(const Receiver<M>& receiver, const L& light) {
+glm::vec3 transfer_in_lane(const Receiver<M>& receiver, const L& light) {
     LightBlock block;
     block.set(0, light);
     block.template finish<L>(1);
-    LaneSpectra<glm::vec3> terms;
-    unshadowed_terms<L>(
-        receiver, block, 1, [&](int) -> const L& { return light; }, terms);
-    return terms[0];
+    LaneSpectra<glm::vec3> transfer;
+    unshadowed_transfer<L>(
+        receiver, block, 1, [&](int) -> const L& { return light; }, transfer);
+    return transfer[0];
 }
 
 /// Checks one configuration: each stage's bound against what every light does as compiled, and against the error of
@@ -84,9 +84,9 @@ void check_cluster(LawOutcome& outcome, const ClusterConfiguration& c, const std
         outcome.first = out.str();
     };
 
-    std::vector<glm::vec3> terms;
+    std::vector<glm::vec3> transfer;
     for (const L& light : lights) {
-        terms.push_back(glm::max(unshadowed_terms(receiver, light), terms_in_lane(receiver, light)));
+        transfer.push_back(glm::max(unshadowed_transfer(receiver, light), transfer_in_lane(receiver, light)));
     }
 
     // The bound of a cluster of the lights [first, last).
@@ -94,7 +94,7 @@ void check_cluster(LawOutcome& outcome, const ClusterConfiguration& c, const std
         for (std::size_t i = first; i < last; ++i) {
             for (int k = 0; k < 3; ++k) {
                 // Written so that NaN is a violation.
-                if (!(terms[i][k] <= bound[k])) report("terms", name, i, k, terms[i][k], bound[k]);
+                if (!(transfer[i][k] <= bound[k])) report("transfer", name, i, k, transfer[i][k], bound[k]);
             }
             outcome.comparisons += 3;
         }
@@ -109,15 +109,15 @@ void check_cluster(LawOutcome& outcome, const ClusterConfiguration& c, const std
     constexpr std::array<const char*, 3> names{"quick", "tight", "separate"};
     std::array<double, 3> exact{};
     for (std::size_t i = 0; i < lights.size(); ++i) {
-        const glm::vec3 contribution = finite(glm::vec3(terms[i] * lights[i].intensity));
+        const glm::vec3 contribution = finite(glm::vec3(transfer[i] * lights[i].intensity));
         for (int k = 0; k < 3; ++k) exact[static_cast<std::size_t>(k)] += static_cast<double>(contribution[k]);
     }
     for (std::size_t b = 0; b < bounds.size(); ++b) {
         check(names[b], bounds[b], 0, lights.size());
         const glm::vec3 error_bound = error_bound_of(bounds[b], cluster.intensity);
         for (std::size_t i = 0; i < lights.size(); ++i) {
-            const glm::vec3 contribution = finite(glm::vec3(terms[i] * lights[i].intensity));
-            const glm::vec3 estimate = finite(glm::vec3(terms[i] * cluster.intensity));
+            const glm::vec3 contribution = finite(glm::vec3(transfer[i] * lights[i].intensity));
+            const glm::vec3 estimate = finite(glm::vec3(transfer[i] * cluster.intensity));
             for (int k = 0; k < 3; ++k) {
                 if (!(contribution[k] <= error_bound[k])) {
                     report("contribution", names[b], i, k, contribution[k], error_bound[k]);

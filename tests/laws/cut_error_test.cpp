@@ -83,11 +83,11 @@ template <class Forest>
 void expect_errors_within_bounds(const Forest& forest, Room<V>& room) {
     const Occluders occluders = room.occluders();
     for (const LightcutOptions& options :
-         {LightcutOptions{.few_lights = 0}, LightcutOptions{.error_ratio = 0.1f, .few_lights = 0},
-          LightcutOptions{.error_ratio = 0.0f, .max_cut = 0, .few_lights = 0},
-          LightcutOptions{.error_ratio = 0.01f, .max_cut = 40, .few_lights = 0}, LightcutOptions{.max_cut = 1},
-          LightcutOptions{.max_cut = 2}, LightcutOptions{.few_lights = 0, .adaptation = 0.05f},
-          LightcutOptions{.error_ratio = 0.05f, .few_lights = 0, .round_fraction = 1.0}}) {
+         {LightcutOptions{.exhaustive_below = 0}, LightcutOptions{.error_ratio = 0.1f, .exhaustive_below = 0},
+          LightcutOptions{.error_ratio = 0.0f, .max_cut = 0, .exhaustive_below = 0},
+          LightcutOptions{.error_ratio = 0.01f, .max_cut = 40, .exhaustive_below = 0}, LightcutOptions{.max_cut = 1},
+          LightcutOptions{.max_cut = 2}, LightcutOptions{.exhaustive_below = 0, .adaptation = 0.05f},
+          LightcutOptions{.error_ratio = 0.05f, .exhaustive_below = 0, .round_fraction = 1.0}}) {
         expect_error_within_bound(forest, room.diffuse_receivers(20), occluders, 0.0f, options);
         expect_error_within_bound(forest, room.glossy_receivers(20), occluders, 0.3f, options);
     }
@@ -144,7 +144,7 @@ TEST(CutError, IsWithinItsBoundUnderSeparateBounds) {
     EstimateScratch<V> scratch;
     for (const auto& receiver : room.glossy_receivers(50)) {
         const Estimate<V> exact = exhaustive(forest, receiver, oracle, scratch);
-        const CutResult<V> result = shade(forest, receiver, oracle, {.error_ratio = 0.05f, .few_lights = 0},
+        const CutResult<V> result = shade(forest, receiver, oracle, {.error_ratio = 0.05f, .exhaustive_below = 0},
                                           SeparateBounds{});
         for (int c = 0; c < 3; ++c) {
             EXPECT_LE(std::fabs(static_cast<double>(result.radiance[c]) - static_cast<double>(exact.radiance[c])),
@@ -164,7 +164,7 @@ TEST(CutError, FallsWithTheErrorRatio) {
         float bound = 1e30f;
         for (const float ratio : {0.2f, 0.1f, 0.05f, 0.02f, 0.01f, 0.005f}) {
             const CutResult<V> result = shade(tree, receiver, AlwaysVisible{},
-                                              {.error_ratio = ratio, .max_cut = 0, .few_lights = 0});
+                                              {.error_ratio = ratio, .max_cut = 0, .exhaustive_below = 0});
             EXPECT_GE(result.cut_size, size);
             EXPECT_LE(result.error_bound.x, bound);
             size = result.cut_size;

@@ -44,7 +44,7 @@ Verdict prove(const Value& value, double limit, const OffsetBox& box) {
         open.pop_back();
         const Interval range = value(intervals_of(b));
         if (range.sup() <= limit) continue;
-        const glm::dvec3 middle = centre(b);
+        const glm::dvec3 middle = center(b);
         if (value(intervals_of({middle, middle})).inf() > limit) return Verdict::refuted;
         int longest = 0;
         const glm::dvec3 size = b.hi - b.lo;

@@ -37,9 +37,9 @@ TEST(Tiles, DoNotChangeABit) {
     const auto receivers = room.glossy_receivers(100);
     const BatchedOccluders batched{occluders, 0.2f};
     const ScalarOccluders scalar{occluders, 0.2f};
-    for (const LightcutOptions& options :
-         {LightcutOptions{.few_lights = 0}, LightcutOptions{.error_ratio = 0.005f, .max_cut = 90, .few_lights = 0},
-          LightcutOptions{.few_lights = 0, .round_fraction = 1.0}}) {
+    for (const LightcutOptions& options : {LightcutOptions{.exhaustive_below = 0},
+                                           LightcutOptions{.error_ratio = 0.005f, .max_cut = 90, .exhaustive_below = 0},
+                                           LightcutOptions{.exhaustive_below = 0, .round_fraction = 1.0}}) {
         const auto one_by_one = shade_in_tiles(forest, receivers, batched, options, 1);
         for (const std::size_t tile : {2u, 7u, 64u, 100u}) {
             expect_same(one_by_one, shade_in_tiles(forest, receivers, batched, options, tile));

@@ -152,8 +152,8 @@ double ratio_at(double quantile, bool is_quick, const Make& make) {
         const auto m = make(s);
         const glm::dvec3 half = glm::abs(numbers.cube());
         const glm::dvec3 aim = material_test::mirror_of(s) + 0.7 * numbers.direction();
-        const glm::dvec3 centre = glm::normalize(aim) * (glm::length(half) * numbers.uniform(1.2, 6.0));
-        const OffsetBox box{centre - half, centre + half};
+        const glm::dvec3 center = glm::normalize(aim) * (glm::length(half) * numbers.uniform(1.2, 6.0));
+        const OffsetBox box{center - half, center + half};
         const glm::dvec3 r = material_test::mirror_of(s);
         const glm::dvec3 aims[] = {r, glm::dvec3(s.normal)};
         const double most = material_test::search_maximum(numbers, box, aims, 200, [&](const glm::dvec3& p) {

@@ -38,7 +38,7 @@ TEST(Range, RadianceSaturatesAfterItsShadow) {
         const LightTree tree(lights);
         const Receiver<Lambert<float>> receiver(V(0.0f), Lambert<float>{V(random.on_sphere()), 0.5f});
         const float exact = exhaustive(tree, receiver, fraction).radiance;
-        const auto cut = shade(tree, receiver, fraction, {.error_ratio = 0.0f, .max_cut = 0, .few_lights = 0});
+        const auto cut = shade(tree, receiver, fraction, {.error_ratio = 0.0f, .max_cut = 0, .exhaustive_below = 0});
         EXPECT_TRUE(std::isfinite(exact));
         EXPECT_NEAR(static_cast<double>(cut.radiance), static_cast<double>(exact), 1e-5 * static_cast<double>(exact));
         saturated += exact > 1e37f && exact < std::numeric_limits<float>::max() ? 1 : 0;
@@ -62,7 +62,8 @@ TEST(Range, ErrorsAreBoundedUpToDistancesOf1e18) {
         const Receiver<Lambert<float>> receiver(at, Lambert<float>{V(random.on_sphere()), 0.5f});
         const auto exact = static_cast<double>(exhaustive(tree, receiver, fraction).radiance);
         for (const float ratio : {0.0f, 0.02f, 0.3f}) {
-            const auto cut = shade(tree, receiver, fraction, {.error_ratio = ratio, .max_cut = 0, .few_lights = 0});
+            const auto cut = shade(tree, receiver, fraction,
+                                   {.error_ratio = ratio, .max_cut = 0, .exhaustive_below = 0});
             EXPECT_LE(std::fabs(static_cast<double>(cut.radiance) - exact),
                       static_cast<double>(cut.error_bound) + 1e-5 * exact + 0x1p-126 * sum)
                 << scale;

@@ -7,7 +7,7 @@
 
 #include <lightcuts/bound/policy.hpp>
 #include <lightcuts/material/phong.hpp>
-#include <lightcuts/material/terms.hpp>
+#include <lightcuts/shading/transfer.hpp>
 #include "laws/cluster_bound_law.hpp"
 
 namespace lightcuts::test {
@@ -109,13 +109,14 @@ void expect_bounds_hold_over_boxes(std::uint64_t seed) {
                                            SeparateBounds{}.quick(r.bound, clusters[i], r.box)};
             for (const Receiver<Surface>& receiver : r.all) {
                 for (const L& light : lights[i]) {
-                    const V terms = glm::max(unshadowed_terms(receiver, light), terms_in_lane(receiver, light));
-                    positive += terms.y > 0.0f;
+                    const V transfer = glm::max(unshadowed_transfer(receiver, light),
+                                                transfer_in_lane(receiver, light));
+                    positive += transfer.y > 0.0f;
                     for (std::size_t b = 0; b < several.size(); ++b) {
                         for (int k = 0; k < 3; ++k) {
                             // Written so that NaN is a violation.
-                            ASSERT_TRUE(terms[k] <= several[b][k])
-                                << terms[k] << " above " << several[b][k] << ", bound " << b << ", trial " << trial;
+                            ASSERT_TRUE(transfer[k] <= several[b][k])
+                                << transfer[k] << " above " << several[b][k] << ", bound " << b << ", trial " << trial;
                         }
                     }
                 }

@@ -23,9 +23,9 @@ namespace {
 
 using V = glm::vec3;
 constexpr float infinity = std::numeric_limits<float>::infinity();
-constexpr LightcutOptions exact_options{.error_ratio = 0.0f, .max_cut = 0, .few_lights = 0};
+constexpr LightcutOptions exact_options{.error_ratio = 0.0f, .max_cut = 0, .exhaustive_below = 0};
 
-bool is_finite_colour(const V& v) { return v.x - v.x == 0.0f && v.y - v.y == 0.0f && v.z - v.z == 0.0f; }
+bool is_finite_color(const V& v) { return v.x - v.x == 0.0f && v.y - v.y == 0.0f && v.z - v.z == 0.0f; }
 
 Receiver<Lambert<V>> floor_at(const V& position) { return {position, Lambert<V>{{0.0f, 0.0f, 1.0f}, V(0.5f)}}; }
 
@@ -50,7 +50,7 @@ V expect_sound(const std::vector<L>& lights, const Receiver<M>& receiver, double
     const V exact = exhaustive(forest, receiver, AlwaysVisible{}, scratch).radiance;
     const V by_ward = ward(forest, receiver, AlwaysVisible{}, 0.0f, scratch).radiance;
     const V refined = shade(tree, receiver, AlwaysVisible{}, exact_options).radiance;
-    EXPECT_TRUE(is_finite_colour(exact));
+    EXPECT_TRUE(is_finite_color(exact));
     const V rounding = rounding_of_cosines(lights, receiver.position);
     const auto allowed = [&](int c) {
         return tolerance * static_cast<double>(exact[c]) + static_cast<double>(rounding[c]);
@@ -60,12 +60,12 @@ V expect_sound(const std::vector<L>& lights, const Receiver<M>& receiver, double
         EXPECT_NEAR(refined[c], exact[c], allowed(c));
     }
     for (const LightcutOptions& options :
-         {LightcutOptions{}, LightcutOptions{.few_lights = 0}, LightcutOptions{.max_cut = 1},
-          LightcutOptions{.max_cut = 2}, LightcutOptions{.max_cut = lights.size(), .few_lights = 0},
-          LightcutOptions{.error_ratio = 0.5f, .few_lights = 0},
-          LightcutOptions{.few_lights = 0, .adaptation = 1.0f}}) {
+         {LightcutOptions{}, LightcutOptions{.exhaustive_below = 0}, LightcutOptions{.max_cut = 1},
+          LightcutOptions{.max_cut = 2}, LightcutOptions{.max_cut = lights.size(), .exhaustive_below = 0},
+          LightcutOptions{.error_ratio = 0.5f, .exhaustive_below = 0},
+          LightcutOptions{.exhaustive_below = 0, .adaptation = 1.0f}}) {
         const CutResult<V> cut = shade(tree, receiver, AlwaysVisible{}, options);
-        EXPECT_TRUE(is_finite_colour(cut.radiance));
+        EXPECT_TRUE(is_finite_color(cut.radiance));
         for (int c = 0; c < 3; ++c) {
             EXPECT_GE(cut.radiance[c], 0.0f);
             EXPECT_GE(cut.error_bound[c], 0.0f) << "also not NaN";
@@ -168,7 +168,8 @@ TEST(StiffCase, ReceiverOnACornerAFaceOrInsideTheBox) {
             EXPECT_EQ(limited.error_bound.x, infinity);
             EXPECT_EQ(limited.stop, StopReason::limit);
         }
-        EXPECT_LT(shade(tree, receiver, AlwaysVisible{}, {.max_cut = 0, .few_lights = 0}).error_bound.x, infinity);
+        EXPECT_LT(shade(tree, receiver, AlwaysVisible{}, {.max_cut = 0, .exhaustive_below = 0}).error_bound.x,
+                  infinity);
     }
 }
 
@@ -179,7 +180,7 @@ TEST(StiffCase, EmitterCoplanarWithTheReceiverAndTouchingIt) {
     const auto receiver = floor_at({3.0f, 3.0f, 0.5f});
     EXPECT_EQ(expect_sound(lights, receiver), V(0.0f));
     const LightTree tree(lights);
-    const auto cut = shade(tree, receiver, AlwaysVisible{}, {.few_lights = 0});
+    const auto cut = shade(tree, receiver, AlwaysVisible{}, {.exhaustive_below = 0});
     EXPECT_EQ(cut.cut_size, tree.start().size()) << "the bound of an axis-aligned coplanar cluster is exactly zero";
     EXPECT_EQ(cut.error_bound, V(0.0f));
 
@@ -200,7 +201,7 @@ TEST(StiffCase, BoxBelowTheHorizon) {
     EXPECT_EQ(expect_sound(lights, floor_at(V(0.0f))), V(0.0f));
     const LightTree tree(lights);
     const Occluders none;
-    const auto cut = shade(tree, floor_at(V(0.0f)), ScalarOccluders{none}, {.few_lights = 0});
+    const auto cut = shade(tree, floor_at(V(0.0f)), ScalarOccluders{none}, {.exhaustive_below = 0});
     EXPECT_EQ(cut.cut_size, tree.start().size()) << "never refined";
     EXPECT_EQ(cut.queries, 0u);
 }
@@ -256,8 +257,8 @@ TEST(StiffCase, VastAndTinyRooms) {
     }
 }
 
-// The centre of the cluster's box lies in the receiver's plane, but for a coordinate that is no normal number.
-TEST(StiffCase, CentreInThePlaneUpToADenormal) {
+// The center of the cluster's box lies in the receiver's plane, but for a coordinate that is no normal number.
+TEST(StiffCase, CenterInThePlaneUpToADenormal) {
     for (const float z : {1e-3f, 1e-20f, 1e-37f, 1e-38f, 1e-39f, 0.0f}) {
         std::vector<OmniLight<>> lights;
         for (const float x : {0.5f, 1.0f, 1.5f}) {
@@ -348,7 +349,7 @@ TEST(StiffCase, LightNextToTheReceiver) {
         EXPECT_LT(exact.x, infinity);
         EXPECT_EQ(exact.y, 0.0f);
         EXPECT_EQ(exact.z, 0.0f);
-        EXPECT_TRUE(is_finite_colour(unshadowed_terms(receiver, lights[0])));
+        EXPECT_TRUE(is_finite_color(unshadowed_transfer(receiver, lights[0])));
     }
 }
 
@@ -406,7 +407,7 @@ TEST(StiffCase, LightOppositeTheViewerOnTheHorizon) {
     const V to_light = incidence(lights[0], x).to_light;
     for (const V& value : {Ggx<V>(normal, view, V(0.5f), 0.1f).evaluate(to_light),
                            Ward<V>(normal, view, V(0.5f), 0.1f).evaluate(to_light)}) {
-        EXPECT_TRUE(is_finite_colour(value));
+        EXPECT_TRUE(is_finite_color(value));
     }
     expect_sound(lights, Receiver<Ggx<V>>(x, Ggx<V>(normal, view, V(0.5f), 0.1f)));
     expect_sound(lights, Receiver<Ward<V>>(x, Ward<V>(normal, view, V(0.5f), 0.1f)));

@@ -10,7 +10,7 @@
 namespace lightcuts::test {
 namespace {
 
-/// The best that any bound could do: the largest unshadowed terms of the lights below the node.
+/// The best that any bound could do: the largest unshadowed transfer of the lights below the node.
 template <Light L>
 struct TrueMaximum {
     static constexpr bool two_stages = false;
@@ -25,8 +25,8 @@ struct TrueMaximum {
         S largest{};
         for (ClusterTree::node_index n = topology.left_leaf(node); n <= node; ++n) {
             if (!topology.is_leaf(n)) continue;
-            const S terms = unshadowed_terms(receiver, tree.lights()[topology.item(n)]);
-            largest = make_spectrum<S>([&](int c) { return std::max(channel(largest, c), channel(terms, c)); });
+            const S transfer = unshadowed_transfer(receiver, tree.lights()[topology.item(n)]);
+            largest = make_spectrum<S>([&](int c) { return std::max(channel(largest, c), channel(transfer, c)); });
         }
         return largest;
     }
@@ -36,7 +36,7 @@ struct TrueMaximum {
 template <class L, class M>
 double looseness(const std::vector<L>& lights, const std::vector<Receiver<M>>& receivers, const char* name) {
     const LightTree<L> tree(lights);
-    const LightcutOptions options{.error_ratio = 0.02f, .max_cut = 0, .few_lights = 0};
+    const LightcutOptions options{.error_ratio = 0.02f, .max_cut = 0, .exhaustive_below = 0};
     double ours = 0.0, separate = 0.0, best = 0.0;
     for (const auto& receiver : receivers) {
         ours += shade(tree, receiver, AlwaysVisible{}, options).cut_size;
@@ -73,7 +73,8 @@ TEST(Tightness, OfThePointClusterIsExact) {
         const OrientedPointLight<> light{position, glm::vec3(random.on_sphere()), glm::vec3(1.0f), {}};
         const Lambert<glm::vec3> material{glm::vec3(random.on_sphere()), glm::vec3(0.5f)};
         const LightCluster<OrientedPointLight<>> cluster = cluster_of(light);
-        const float exact = unshadowed_terms(Receiver<const Lambert<glm::vec3>&>(glm::vec3(0.0f), material), light).x;
+        const float exact = unshadowed_transfer(Receiver<const Lambert<glm::vec3>&>(glm::vec3(0.0f), material), light)
+                                .x;
         const float quick = TwoStageBounds{}.quick(material, cluster, box_of(glm::vec3(0.0f))).x;
         const float tight = TwoStageBounds{}.tight(material, cluster, box_of(glm::vec3(0.0f))).x;
         EXPECT_LE(tight, exact * 1.02f + 1e-5f);

@@ -109,7 +109,8 @@ TEST(AdaptiveCut, HasLessThanHalfAPerCentOfBias) {
             Mean mean;
             for (std::uint64_t seed = 0; seed < 40; ++seed) {
                 const LightTree tree(lights, {.representatives = representatives, .seed = seed});
-                mean.add(static_cast<double>(shade(tree, receiver, oracle, {.few_lights = 0, .seed = seed}).radiance));
+                mean.add(
+                    static_cast<double>(shade(tree, receiver, oracle, {.exhaustive_below = 0, .seed = seed}).radiance));
             }
             bias.add(mean.value() / exact - 1.0);
         }

@@ -71,14 +71,14 @@ inline glm::dvec3 mirror_of(const Surface& s) {
 inline lightcuts::OffsetBox random_box(Numbers& numbers, const Surface& s) {
     const glm::dvec3 n(s.normal);
     const glm::dvec3 v(s.view);
-    glm::dvec3 centre = numbers.direction();
+    glm::dvec3 center = numbers.direction();
     switch (numbers.below(6)) {
-        case 0: centre = mirror_of(s); break;
-        case 1: centre = mirror_of(s) + numbers.magnitude(1e-7, 1.0) * numbers.direction(); break;
-        case 2: centre = numbers.below(2) == 0 ? v : -v; break;
+        case 0: center = mirror_of(s); break;
+        case 1: center = mirror_of(s) + numbers.magnitude(1e-7, 1.0) * numbers.direction(); break;
+        case 2: center = numbers.below(2) == 0 ? v : -v; break;
         case 3: {
             const double above = numbers.magnitude(1e-9, 0.1);
-            centre -= n * (glm::dot(n, centre) - (numbers.below(4) == 0 ? -above : above));
+            center -= n * (glm::dot(n, center) - (numbers.below(4) == 0 ? -above : above));
             break;
         }
         default: break;
@@ -93,10 +93,10 @@ inline lightcuts::OffsetBox random_box(Numbers& numbers, const Surface& s) {
         }
         case 2: half = glm::dvec3(0.0); break;
         case 3: half[numbers.below(3)] *= 1e6; break;
-        case 4: centre = numbers.cube() * half; break;
+        case 4: center = numbers.cube() * half; break;
         default: break;
     }
-    lightcuts::OffsetBox box{centre - half, centre + half};
+    lightcuts::OffsetBox box{center - half, center + half};
     if (numbers.below(10) == 0) {
         const int axis = numbers.below(3);
         (numbers.below(2) == 0 ? box.lo : box.hi)[axis] = 0.0;

@@ -29,7 +29,7 @@ struct RandomBlock {
     }
 
     bool is_narrow(int i) const { return caps.narrow[i] == 1.0f; }
-    glm::dvec3 centre(int i) const { return {caps.centre[0][i], caps.centre[1][i], caps.centre[2][i]}; }
+    glm::dvec3 center(int i) const { return {caps.center[0][i], caps.center[1][i], caps.center[2][i]}; }
     glm::dvec3 corner(int i, int k) const {
         const OffsetBox& b = boxes[i];
         return {(k & 1) != 0 ? b.hi.x : b.lo.x, (k & 2) != 0 ? b.hi.y : b.lo.y, (k & 4) != 0 ? b.hi.z : b.lo.z};
@@ -48,7 +48,7 @@ TEST(DirectionCaps, HoldTheBoxesAndTheirEdgesNearlyTouchAVertex) {
             double widest = 0.0;
             for (int k = 0; k < 8; ++k) {
                 const glm::dvec3 p = r.corner(i, k);
-                const double a = std::atan2(glm::length(glm::cross(r.centre(i), p)), glm::dot(r.centre(i), p));
+                const double a = std::atan2(glm::length(glm::cross(r.center(i), p)), glm::dot(r.center(i), p));
                 widest = a > widest ? a : widest;
             }
             EXPECT_LE(widest, angle);

@@ -1,4 +1,4 @@
-#include <lightcuts/material/receiver.hpp>
+#include <lightcuts/shading/receiver.hpp>
 
 #include <limits>
 

@@ -7,7 +7,7 @@
 
 namespace material_test {
 
-/// The models in extended precision, straight from the papers, as yardsticks of evaluate(). Vectors are normalised
+/// The models in extended precision, straight from the papers, as yardsticks of evaluate(). Vectors are normalized
 /// first.
 using Real = long double;
 using Direction = glm::vec<3, Real>;

@@ -6,8 +6,8 @@
 #include <lightcuts/material/capped.hpp>
 #include <lightcuts/material/ggx.hpp>
 #include <lightcuts/material/lambert.hpp>
-#include <lightcuts/material/receiver.hpp>
 #include <lightcuts/material/sum.hpp>
+#include <lightcuts/shading/receiver.hpp>
 
 #include "configurations.hpp"
 

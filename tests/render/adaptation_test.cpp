@@ -56,7 +56,7 @@ TEST_F(Adaptation, IsTheGeometricMeanOfWhatIsSeen) {
     // With much background, and the shadow of a block.
     folder.write("block.obj",
                  "mtllib floor.mtl\nv -4 0 -4\nv 4 0 -4\nv 4 0 4\nv -4 0 4\n"
-                 "v -0.5 1 -0.5\nv 0.5 1 -0.5\nv 0.5 1 0.5\nv -0.5 1 0.5\nusemtl grey\nf 4 3 2 1\nf 8 7 6 5\n");
+                 "v -0.5 1 -0.5\nv 0.5 1 -0.5\nv 0.5 1 0.5\nv -0.5 1 0.5\nusemtl gray\nf 4 3 2 1\nf 8 7 6 5\n");
     for (const std::string method : {"exhaustive", "lightcuts"}) {
         const std::string size = method == "exhaustive" ? "32x32" : "32x20";
         const double value = measured("block.obj --lights one.csv --size " + size + " --method " + method + view);

@@ -248,7 +248,7 @@ TEST_F(Programs, RefuseBadInputInOneLine) {
         {"room.obj --threads 0", 2, "--threads"},
         {"room.obj --builder oak", 2, "--builder"},
         {"room.obj --materials shiny", 2, "--materials"},
-        {"room.obj --aov colour", 2, "--aov"},
+        {"room.obj --aov color", 2, "--aov"},
         {"room.obj --fov 180", 2, "--fov"},
         {"room.obj --eye 1,2", 2, "--eye"},
         {"room.obj --unknown", 2, "--unknown"},
@@ -313,8 +313,8 @@ TEST_F(Programs, LeaveOldFilesAloneWhenTheyFail) {
 }
 
 TEST_F(Programs, NeverReplaceWhatTheyRead) {
-    folder.write("wall.mtl", "newmtl grey\nKd 1\nmap_Kd wall.png\n");
-    folder.write("wall.obj", "mtllib wall.mtl\nv -4 0 -4\nv 4 0 -4\nv 4 0 4\nvt 0 0\nusemtl grey\nf 3/1 2/1 1/1\n");
+    folder.write("wall.mtl", "newmtl gray\nKd 1\nmap_Kd wall.png\n");
+    folder.write("wall.obj", "mtllib wall.mtl\nv -4 0 -4\nv 4 0 -4\nv 4 0 4\nvt 0 0\nusemtl gray\nf 3/1 2/1 1/1\n");
     Picture map(4, 2);
     for (glm::vec3& pixel : map.pixels) pixel = glm::vec3(1.0f);
     write_exr(folder / "sky.exr", map);

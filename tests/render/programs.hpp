@@ -23,7 +23,7 @@ protected:
 
     void SetUp() override {
         folder.write("room.mtl",
-                     "newmtl grey\nKd 0.5 0.4 0.3\n"
+                     "newmtl gray\nKd 0.5 0.4 0.3\n"
                      "newmtl lamp\nKd 0 0 0\nKe 20 20 10\n");
         // A floor of 8 x 8 under a block, with a lamp of 1 x 1 that faces down.
         folder.write("room.obj",
@@ -31,10 +31,10 @@ protected:
                      "v -4 0 -4\nv 4 0 -4\nv 4 0 4\nv -4 0 4\n"
                      "v -1 1 -1\nv 1 1 -1\nv 1 1 1\nv -1 1 1\n"
                      "v -0.5 3 -0.5\nv 0.5 3 -0.5\nv 0.5 3 0.5\nv -0.5 3 0.5\n"
-                     "usemtl grey\nf 4 3 2 1\nf 8 7 6 5\n"
+                     "usemtl gray\nf 4 3 2 1\nf 8 7 6 5\n"
                      "usemtl lamp\nf 9 10 11 12\n");
-        folder.write("floor.mtl", "newmtl grey\nKd 0.5 0.4 0.3\n");
-        folder.write("floor.obj", "mtllib floor.mtl\nv -4 0 -4\nv 4 0 -4\nv 4 0 4\nv -4 0 4\nusemtl grey\nf 4 3 2 1\n");
+        folder.write("floor.mtl", "newmtl gray\nKd 0.5 0.4 0.3\n");
+        folder.write("floor.obj", "mtllib floor.mtl\nv -4 0 -4\nv 4 0 -4\nv 4 0 4\nv -4 0 4\nusemtl gray\nf 4 3 2 1\n");
         folder.write("one.csv", "kind,x,y,z,dx,dy,dz,r,g,b\nomni,0.5,2,-0.25,,,,3,2,1\n");
         folder.write("dark.csv", "kind,x,y,z,dx,dy,dz,r,g,b\nomni,0.5,2,-0.25,,,,0,0,0\n");
     }

@@ -14,7 +14,7 @@
 using Rgbe = std::array<std::uint8_t, 4>;
 using Scanline = std::vector<Rgbe>;
 
-/// The pixel nearest to a colour without negative channels.
+/// The pixel nearest to a color without negative channels.
 inline Rgbe rgbe_of(const glm::dvec3& color) {
     const double most = std::max({color.r, color.g, color.b});
     if (!(most > 0.0)) return {0, 0, 0, 0};

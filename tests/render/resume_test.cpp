@@ -102,10 +102,10 @@ TEST_F(Resume, RefusesAnotherPictureAndSaysWhatDiffers) {
     expect_refusal(large + "--up 1,1,0", "the camera");
     expect_refusal(large + "--isa sse2", "the ray tracer (");
     const std::string scene = folder.read("room.obj"), materials = folder.read("room.mtl");
-    folder.write("room.mtl", "newmtl grey\nKd 0.5 0.4 0.31\nnewmtl lamp\nKd 0 0 0\nKe 20 20 10\n");
+    folder.write("room.mtl", "newmtl gray\nKd 0.5 0.4 0.31\nnewmtl lamp\nKd 0 0 0\nKe 20 20 10\n");
     expect_refusal(large, "by the scene's materials;");
     folder.write("room.mtl", materials);
-    folder.write("room.obj", scene + "v 9 9 9\nv 9 9 8\nv 9 8 9\nusemtl grey\nf 13 14 15\n");
+    folder.write("room.obj", scene + "v 9 9 9\nv 9 9 8\nv 9 8 9\nusemtl gray\nf 13 14 15\n");
     expect_refusal(large, "by the scene's triangles;");
     folder.write("room.obj", scene);
     // These change no picture, nor does what a file is called.

@@ -1,4 +1,4 @@
-// Shadows of coloured glass have its colour.
+// Shadows of colored glass have its color.
 
 #include <numbers>
 #include <string>

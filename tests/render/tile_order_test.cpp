@@ -20,14 +20,14 @@ TEST(TileOrder, CoversEveryPixelOnce) {
     }
 }
 
-TEST(TileOrder, NextTileIsANeighbour) {
+TEST(TileOrder, NextTileIsANeighbor) {
     const auto tiles = render::tiles_of(256, 256, 16);
     for (std::size_t i = 1; i < tiles.size(); ++i) {
         EXPECT_EQ(std::abs(tiles[i].x0 - tiles[i - 1].x0) + std::abs(tiles[i].y0 - tiles[i - 1].y0), 16) << i;
     }
 }
 
-TEST(PixelOffset, IsTheCentreForOneSample) {
+TEST(PixelOffset, IsTheCenterForOneSample) {
     EXPECT_EQ(render::pixel_offset(1, 123, 0, 1), glm::vec2(0.5f));
     EXPECT_EQ(render::pixel_offset(2, 7, 0, 1), glm::vec2(0.5f));
 }

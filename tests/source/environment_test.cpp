@@ -27,7 +27,7 @@ struct Picture {
     V& at(std::uint32_t x, std::uint32_t y) { return pixels[y * width + x]; }
 };
 
-/// A sky whose colours vary a thousandfold, with a black patch.
+/// A sky whose colors vary a thousandfold, with a black patch.
 Picture clouds(std::uint32_t height, std::uint64_t seed) {
     Random random(seed);
     Picture picture{2 * height, height, {}};

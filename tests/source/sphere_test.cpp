@@ -28,7 +28,7 @@ std::vector<SpherePointLight<V>> lights_of(const Sphere& sphere, std::size_t cou
 }
 
 TEST(SphereLights, ProjectUniformlyOnTheSpheresDiscSeenFromAnywhere) {
-    // The density of points on a chord at distance b of the centre, per area of the disc: seen from any distance d,
+    // The density of points on a chord at distance b of the center, per area of the disc: seen from any distance d,
     // what an eye gathers along a ray is the sum of points near it / their distance^2 / solid angle of the cone.
     const Sphere sphere{V(1.0f, -2.0f, 0.5f), 2.0f, V(1.0f)};
     constexpr std::size_t count = 4096;
@@ -37,7 +37,7 @@ TEST(SphereLights, ProjectUniformlyOnTheSpheresDiscSeenFromAnywhere) {
     for (std::uint64_t seed = 0; seed < seeds; ++seed) sets.push_back(lights_of(sphere, count, seed));
     for (const double distance : {2.5, 4.0, 50.0}) {
         for (const glm::dvec3& towards : {glm::dvec3(0, 0, 1), glm::dvec3(1, 0, 0), glm::dvec3(0.48, 0.6, 0.64)}) {
-            const glm::dvec3 eye = glm::dvec3(sphere.centre) + distance * towards;
+            const glm::dvec3 eye = glm::dvec3(sphere.center) + distance * towards;
             // Rings of equal solid angle of the sphere's cone; each light weighs 1 / its distance^2.
             const double cos_edge = std::sqrt(1.0 - 4.0 / (distance * distance));
             constexpr int rings = 8;
@@ -84,7 +84,7 @@ TEST(SphereLights, GiveTheExactIrradianceAtADistance) {
 std::vector<EmissiveTriangle<V>> triangulated(const Sphere& sphere, const V& radiance, int rows) {
     const auto at = [&](int i, int j) {
         const double theta = std::numbers::pi * j / rows, phi = std::numbers::pi * i / rows;
-        return V(glm::dvec3(sphere.centre) + double(sphere.radius) * glm::dvec3(std::sin(theta) * std::cos(phi),
+        return V(glm::dvec3(sphere.center) + double(sphere.radius) * glm::dvec3(std::sin(theta) * std::cos(phi),
                                                                                 std::sin(theta) * std::sin(phi),
                                                                                 std::cos(theta)));
     };
@@ -121,11 +121,11 @@ TEST(SphereLights, EqualTheirTriangulatedTwinShadowsIncluded) {
     screen.add_triangle({0.1, -10.0, 1.0}, {0.1, 10.0, 1.0}, {20.0, 0.0, 1.0});
     // Something inside the sphere: shadows only rays that do not end at its surface.
     Occluders with_core = screen;
-    with_core.add_sphere(glm::dvec3(sphere.centre), 0.5);
+    with_core.add_sphere(glm::dvec3(sphere.center), 0.5);
 
     // The triangulated sphere shadows its own far side: a sphere a little smaller does.
     Occluders with_body = screen;
-    with_body.add_sphere(glm::dvec3(sphere.centre), 0.79);
+    with_body.add_sphere(glm::dvec3(sphere.center), 0.79);
     const LightTree sphere_tree(points);
     const LightTree twin_tree(twins);
     for (const V& at : {V(-1.0f, 0.0f, 0.0f), V(0.1f, 0.2f, 0.0f), V(0.3f, 0.0f, 0.5f), V(-3.0f, 0.5f, 1.0f)}) {
@@ -142,7 +142,7 @@ TEST(ShadowEnd, IsTheNearPointOfTheSphere) {
     const Sphere sphere{V(0.0f, 0.0f, 5.0f), 1.0f, V(1.0f)};
     for (const auto& l : lights_of(sphere, 500)) {
         const V end = shadow_end(sphere, V(0.2f, -0.1f, 0.0f), l.position);
-        EXPECT_NEAR(glm::distance(end, sphere.centre), 1.0f, 1e-5f);
+        EXPECT_NEAR(glm::distance(end, sphere.center), 1.0f, 1e-5f);
         EXPECT_LT(end.z, l.position.z);
         const V along = glm::normalize(end - V(0.2f, -0.1f, 0.0f));
         EXPECT_NEAR(glm::dot(along, glm::normalize(l.position - V(0.2f, -0.1f, 0.0f))), 1.0f, 1e-6f);
@@ -162,7 +162,7 @@ TEST(SphereLights, KnowTheirSphereAndKeepItsPower) {
     for (std::size_t i = 0; i < lights.size(); ++i) {
         EXPECT_EQ(lights[i].sphere, i / 33);
         const Sphere& sphere = spheres[i / 33];
-        EXPECT_LE(glm::distance(lights[i].position, sphere.centre), sphere.radius * 1.00001f);
+        EXPECT_LE(glm::distance(lights[i].position, sphere.center), sphere.radius * 1.00001f);
         if (i >= 33) sum += glm::dvec3(lights[i].intensity);
     }
     EXPECT_NEAR(sum.z, 7.0, 1e-5);
@@ -181,7 +181,7 @@ TEST(SphereLights, RefuseWhatIsNoSphere) {
     constexpr float nan = std::numeric_limits<float>::quiet_NaN();
     EXPECT_THAT(refusal({V(0.0f), 0.0f, V(1.0f)}), HasSubstr("spherical light 1: radius 0.000000"));
     EXPECT_THAT(refusal({V(0.0f), nan, V(1.0f)}), HasSubstr("radius"));
-    EXPECT_THAT(refusal({V(0.0f, nan, 0.0f), 1.0f, V(1.0f)}), HasSubstr("centre"));
+    EXPECT_THAT(refusal({V(0.0f, nan, 0.0f), 1.0f, V(1.0f)}), HasSubstr("center"));
     EXPECT_THAT(refusal({V(0.0f), 1.0f, V(1.0f, -1.0f, 1.0f)}), HasSubstr("intensity -1.000000"));
     EXPECT_EQ(refusal({V(0.0f), 1.0f, V(1.0f)}), "");
 }

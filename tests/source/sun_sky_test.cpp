@@ -35,14 +35,14 @@ glm::dvec3 sum_of(const std::vector<DistantLight<>>& lights) {
 TEST(Daylight, OfTheSunOutsideTheAirIs130000Lux) {
     double y = 0.0;
     for (std::size_t i = 0; i < detail::sun_spectrum.size(); ++i) {
-        y += 683.0 * 10.0 * 100.0 * detail::sun_spectrum[i] * detail::colour_matching(detail::wavelength_of(i)).y;
+        y += 683.0 * 10.0 * 100.0 * detail::sun_spectrum[i] * detail::color_matching(detail::wavelength_of(i)).y;
     }
     EXPECT_NEAR(y * SunSky::sun_solid_angle, 130e3, 5e3);
 }
 
-TEST(Daylight, MatchesEqualEnergyToEqualColours) {
+TEST(Daylight, MatchesEqualEnergyToEqualColors) {
     glm::dvec3 sum(0.0);
-    for (int nm = 380; nm <= 750; ++nm) sum += detail::colour_matching(nm);
+    for (int nm = 380; nm <= 750; ++nm) sum += detail::color_matching(nm);
     EXPECT_NEAR(sum.y, 106.86, 0.5);  // the CIE's own sum
     EXPECT_NEAR(sum.x / sum.y, 1.0, 0.01);
     EXPECT_NEAR(sum.z / sum.y, 1.0, 0.01);

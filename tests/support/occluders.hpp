@@ -20,7 +20,7 @@ public:
     void add_triangle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
         triangles_.push_back({a, b, c});
     }
-    void add_sphere(const glm::dvec3& centre, double radius) { spheres_.push_back({centre, radius}); }
+    void add_sphere(const glm::dvec3& center, double radius) { spheres_.push_back({center, radius}); }
 
     /// True if something stands between `from` and the point `to`, or in the direction `to`.
     bool block(const glm::vec3& from, const glm::vec3& to, bool distant) const {
@@ -41,7 +41,7 @@ private:
         glm::dvec3 a, b, c;
     };
     struct Sphere {
-        glm::dvec3 centre;
+        glm::dvec3 center;
         double radius;
     };
 
@@ -59,7 +59,7 @@ private:
         return u >= 0.0 && v >= 0.0 && u + v <= 1.0 && along > 1e-9 && along < end;
     }
     static bool hits(const Sphere& s, const glm::dvec3& origin, const glm::dvec3& ray, double end) {
-        const glm::dvec3 o = origin - s.centre;
+        const glm::dvec3 o = origin - s.center;
         const double a = glm::dot(ray, ray), b = glm::dot(o, ray), c = glm::dot(o, o) - s.radius * s.radius;
         const double d = b * b - a * c;
         if (d < 0.0) return false;

@@ -14,8 +14,8 @@
 #include <lightcuts/light/spot.hpp>
 #include <lightcuts/material/ggx.hpp>
 #include <lightcuts/material/lambert.hpp>
-#include <lightcuts/material/receiver.hpp>
 #include <lightcuts/material/sum.hpp>
+#include <lightcuts/shading/receiver.hpp>
 #include "support/occluders.hpp"
 #include "support/random.hpp"
 
@@ -111,7 +111,7 @@ private:
         const glm::vec3 p = at(random_.in_box({-1.7, -1.2, -2.2}, {1.7, 1.2, 2.2}));
         return {p, glm::vec3(random_.on_sphere())};
     }
-    /// A colour times a power that varies a hundredfold.
+    /// A color times a power that varies a hundredfold.
     S some_intensity() {
         const double power = random_.decades(-2.0, 0.0);
         return make_spectrum<S>([&](int) { return power * random_.between(0.2, 1.0); });

@@ -106,7 +106,7 @@ TEST(Oracle, OfFractionsScalesWhatItLetsThrough) {
     const LightTree tree(lights);
     const auto half = [](const auto&, const auto&) { return 0.5f; };
     for (const auto& receiver : room.diffuse_receivers(5)) {
-        const LightcutOptions all{.error_ratio = 0.0f, .max_cut = 0, .few_lights = 0};
+        const LightcutOptions all{.error_ratio = 0.0f, .max_cut = 0, .exhaustive_below = 0};
         const glm::vec3 free = shade(tree, receiver, AlwaysVisible{}, all).radiance;
         const glm::vec3 dimmed = shade(tree, receiver, half, all).radiance;
         for (int c = 0; c < 3; ++c) EXPECT_NEAR(dimmed[c], 0.5f * free[c], 1e-5f * free[c]);

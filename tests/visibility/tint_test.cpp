@@ -1,4 +1,4 @@
-// Oracles that answer a fraction for each channel: coloured shadows.
+// Oracles that answer a fraction for each channel: colored shadows.
 
 #include <cmath>
 #include <limits>
@@ -47,10 +47,10 @@ struct BatchedGlass {
     }
 };
 
-/// Would answer in grey as well.
-struct GreyOrTinted : BatchedGlass {
+/// Would answer in gray as well.
+struct GrayOrTinted : BatchedGlass {
     using BatchedGlass::many;
-    void many(std::span<const VisibilityQuery>, std::span<float>) const { ADD_FAILURE() << "asked in grey"; }
+    void many(std::span<const VisibilityQuery>, std::span<float>) const { ADD_FAILURE() << "asked in gray"; }
 };
 
 static_assert(ScalarOracle<ScalarGlass, R, OmniLight<V>> && VisibilityOracle<ScalarGlass, R, OmniLight<V>>);
@@ -81,7 +81,7 @@ struct GlassRoom {
     std::vector<R> receivers;
 };
 
-/// Channel by channel a tint is a grey fraction.
+/// Channel by channel a tint is a gray fraction.
 V exact_by_channels(const GlassRoom& scene, const R& receiver) {
     V sum(0.0f);
     for (int k = 0; k < 3; ++k) {
@@ -98,7 +98,7 @@ TEST(TintingOracle, IsAFractionForEachChannel) {
     GlassRoom scene(31);
     const ScalarGlass scalar{scene.occluders};
     const BatchedGlass batched{scene.occluders};
-    const LightcutOptions all{.error_ratio = 0.0f, .max_cut = 0, .few_lights = 0};
+    const LightcutOptions all{.error_ratio = 0.0f, .max_cut = 0, .exhaustive_below = 0};
     EstimateScratch<V> scratch;
     for (const R& receiver : scene.receivers) {
         const V exact = exact_by_channels(scene, receiver);
@@ -106,7 +106,7 @@ TEST(TintingOracle, IsAFractionForEachChannel) {
         expect_near(exhaustive(scene.lights, receiver, batched, scratch).radiance, exact, 1e-5f);
         expect_near(shade(scene.lights, receiver, scalar, all).radiance, exact, 1e-5f);
         expect_near(shade(scene.lights, receiver, batched, all).radiance, exact, 1e-5f);
-        expect_near(shade(scene.lights, receiver, GreyOrTinted{batched}, all).radiance, exact, 1e-5f);
+        expect_near(shade(scene.lights, receiver, GrayOrTinted{batched}, all).radiance, exact, 1e-5f);
         expect_near(ward(scene.lights, receiver, scalar, 0.0f, scratch).radiance, exact, 1e-5f);
         expect_near(ward(scene.lights, receiver, batched, 0.0f, scratch).radiance, exact, 1e-5f);
         expect_near(adaptive_splitting(scene.lights, receiver, batched, 0.0f, 2000, 1, scratch).radiance, exact, 1e-5f);
@@ -124,9 +124,9 @@ TEST(TintingOracle, KeepsTheErrorOfACutWithinItsBound) {
     for (const R& receiver : scene.receivers) {
         const V exact = exact_by_channels(scene, receiver);
         const CutResult<V> scalar = shade(scene.lights, receiver, ScalarGlass{scene.occluders},
-                                          {.max_cut = 0, .few_lights = 0});
+                                          {.max_cut = 0, .exhaustive_below = 0});
         const CutResult<V> batched = shade(scene.lights, receiver, BatchedGlass{scene.occluders},
-                                           {.max_cut = 0, .few_lights = 0});
+                                           {.max_cut = 0, .exhaustive_below = 0});
         EXPECT_EQ(scalar.radiance, batched.radiance);
         for (int k = 0; k < 3; ++k) {
             EXPECT_LE(std::fabs(batched.radiance[k] - exact[k]), batched.error_bound[k] + 1e-5f * exact[k]);

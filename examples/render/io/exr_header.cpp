@@ -62,12 +62,12 @@ bool skip_attributes(Bytes& bytes) {
     return true;
 }
 
-/// How colour is stored in these channels, if it is.
+/// How color is stored in these channels, if it is.
 std::optional<ExrColor::Kind> kind_of(const Imf::ChannelList& channels) {
     const auto has = [&](const char* name) { return channels.findChannel(name) != nullptr; };
     if (has("R") && has("G") && has("B")) return ExrColor::Kind::rgb;
     if (!has("Y")) return std::nullopt;
-    return has("RY") || has("BY") ? ExrColor::Kind::luminance_chroma : ExrColor::Kind::grey;
+    return has("RY") || has("BY") ? ExrColor::Kind::luminance_chroma : ExrColor::Kind::gray;
 }
 
 void require_sampling(const Imf::ChannelList& channels, const char* name, int every) {

@@ -40,7 +40,7 @@ Imf::Slice plane(float* first, const Window& window, std::size_t stride) {
     return Imf::Slice::Make(Imf::FLOAT, first, window, stride);
 }
 
-/// The channels besides colour that are wanted and have a value for each pixel.
+/// The channels besides color that are wanted and have a value for each pixel.
 std::vector<std::string> other_channels(const Imf::ChannelList& channels, const ExrColor& color, ExrUse use) {
     const auto is_color = [&](const std::string& name) {
         if (color.kind == ExrColor::Kind::rgb) return name == "R" || name == "G" || name == "B";
@@ -68,7 +68,7 @@ void check_sizes(const Window& data, const Window& display, std::size_t channels
     }
 }
 
-/// Reads colour by OpenEXR's own reconstruction of chroma between its samples; halves are all that it has.
+/// Reads color by OpenEXR's own reconstruction of chroma between its samples; halves are all that it has.
 void read_luminance_chroma(ExrStream& stream, const Window& window, Picture& picture) {
     stream.seekg(0);
     Imf::RgbaInputFile file(stream);
@@ -79,7 +79,7 @@ void read_luminance_chroma(ExrStream& stream, const Window& window, Picture& pic
     for (std::size_t i = 0; i < pixels.size(); ++i) picture.pixels[i] = {pixels[i].r, pixels[i].g, pixels[i].b};
 }
 
-/// The picture that fills the data window. Leaves `file` unusable where colour is luminance and chroma.
+/// The picture that fills the data window. Leaves `file` unusable where color is luminance and chroma.
 Picture read_data(ExrStream& stream, Imf::MultiPartInputFile& file, const ExrColor& color,
                   const std::vector<std::string>& others) {
     const Window window = file.header(color.part).dataWindow();
@@ -92,7 +92,7 @@ Picture read_data(ExrStream& stream, Imf::MultiPartInputFile& file, const ExrCol
         for (int c = 0; c < 3; ++c) {
             buffer.insert(names[c], plane(&picture.pixels[0][c], window, sizeof(glm::vec3)));
         }
-    } else if (color.kind == ExrColor::Kind::grey) {
+    } else if (color.kind == ExrColor::Kind::gray) {
         buffer.insert("Y", plane(&picture.pixels[0].x, window, sizeof(glm::vec3)));
     }
     for (Picture::Channel& channel : picture.channels) {
@@ -103,7 +103,7 @@ Picture read_data(ExrStream& stream, Imf::MultiPartInputFile& file, const ExrCol
         part.setFrameBuffer(buffer);
         part.readPixels(window.min.y, window.max.y);
     }
-    if (color.kind == ExrColor::Kind::grey) {
+    if (color.kind == ExrColor::Kind::gray) {
         for (glm::vec3& pixel : picture.pixels) pixel = glm::vec3(pixel.x);
     }
     if (color.kind == ExrColor::Kind::luminance_chroma) read_luminance_chroma(stream, window, picture);

@@ -8,7 +8,7 @@
 
 namespace render {
 
-/// The numbers of the first `most` elements of accessor `index`, one element after the other; normalised integers are
+/// The numbers of the first `most` elements of accessor `index`, one element after the other; normalized integers are
 /// in [0, 1] or [-1, 1]. One without a bufferView is zeros; sparse values are put in. Messages call an element
 /// `element`. throws: invalid_input when it does not exist, has not `components` numbers an element, reaches past its
 /// data, or when one of these numbers is not finite.

@@ -38,7 +38,7 @@ private:
     void convert_metallic_roughness(const JsonObject& source, Material& material);
     void convert_specular(const JsonObject& extension, const JsonObject& source, Material& material);
     void convert_specular_glossiness(const JsonObject& extension, Material& material);
-    /// The factor and texture of the base or diffuse colour in `owner`.
+    /// The factor and texture of the base or diffuse color in `owner`.
     void convert_base(const JsonObject& owner, const char* factor, const char* map, const JsonObject& source,
                       Material& material);
     void convert_emission(const JsonObject& source, Material& material);

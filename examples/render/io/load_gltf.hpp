@@ -8,7 +8,7 @@
 namespace render {
 
 /// Reads a glTF 2.0 file, .gltf or .glb: its default scene's triangles, posed as nodes, skins, morph weights and the
-/// beginning of the first animation say; materials, textures, vertex colours, normal maps, cameras and lights; and the
+/// beginning of the first animation say; materials, textures, vertex colors, normal maps, cameras and lights; and the
 /// extensions that docs/renderer.md lists. Only what the scene shows is read. What the file carries besides is named in
 /// `left_out`, also a normal map that cannot be read.
 /// throws: invalid_input naming the file, the element and the member: if it is no whole glTF 2.0 file, if an element

@@ -22,7 +22,7 @@ struct MtlMap {
     glm::dvec2 scale{1.0};   ///< -s: of uv
     double base = 0.0;       ///< -mm: value = base + gain x texel
     double gain = 1.0;
-    bool clamp = false;   ///< -clamp on: what lies outside [0, 1] takes the colour of the edge
+    bool clamp = false;   ///< -clamp on: what lies outside [0, 1] takes the color of the edge
     char channel = '\0';  ///< -imfchan r, g, b, m (matte), l (luminance) or z; 0: not given
 };
 
@@ -62,8 +62,8 @@ struct MtlLibrary {
     std::vector<MtlMaterial> materials;
 };
 
-/// Reads an MTL file. Keywords may be in upper or lower case; a colour may be one number, for all three, or `xyz` and
-/// CIE coordinates. A number that is none, not finite or negative, a colour of two numbers, and a spectral file are
+/// Reads an MTL file. Keywords may be in upper or lower case; a color may be one number, for all three, or `xyz` and
+/// CIE coordinates. A number that is none, not finite or negative, a color of two numbers, and a spectral file are
 /// problems of their material. throws: invalid_input if it is UTF-16.
 MtlLibrary parse_mtl(const std::filesystem::path& path, std::string_view text);
 

@@ -119,7 +119,7 @@ private:
             geometry_.colors.resize(geometry_.positions.size() - 1, glm::vec3(1.0f));
             geometry_.colors.emplace_back(numbers_[3], numbers_[4], numbers_[5]);
             const bool negative = numbers_[3] < 0.0 || numbers_[4] < 0.0 || numbers_[5] < 0.0;
-            if (negative) fail("a vertex has a negative colour; correct it");
+            if (negative) fail("a vertex has a negative color; correct it");
         } else if (count > 4 && !std::exchange(has_odd_position_, true)) {
             // The fourth of four is a weight, which polygons ignore.
             leave_out(geometry_.left_out,
@@ -225,7 +225,7 @@ private:
         material_ = entry->second;
     }
 
-    /// Vertices without a colour are white. Whole numbers of which one is above 1 are bytes: n / 255.
+    /// Vertices without a color are white. Whole numbers of which one is above 1 are bytes: n / 255.
     void finish_colors() {
         std::vector<glm::vec3>& colors = geometry_.colors;
         if (colors.empty()) return;

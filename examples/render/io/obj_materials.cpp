@@ -27,12 +27,12 @@ bool has_holes(const Texture& texture) {
 void make_mask(Texture& texture, char channel) {
     if (channel == 'm' || channel == 'z' || (channel == '\0' && has_holes(texture))) return;
     for (glm::vec4& t : texture.texels) {
-        const bool grey = t.r == t.g && t.g == t.b;
+        const bool gray = t.r == t.g && t.g == t.b;
         switch (channel) {
             case 'r': t.a = t.r; break;
             case 'g': t.a = t.g; break;
             case 'b': t.a = t.b; break;
-            default: t.a = grey ? t.r : luminance(glm::vec3(t));
+            default: t.a = gray ? t.r : luminance(glm::vec3(t));
         }
     }
 }
@@ -209,11 +209,11 @@ void ObjMaterials::note_no_uv(std::uint32_t material) {
 std::uint32_t ObjMaterials::add_default() {
     if (!default_) {
         default_ = static_cast<std::uint32_t>(scene_.materials.size());
-        Material grey;
-        grey.name = "default";
-        grey.model = Material::Model::phong;
-        if (!geometry_.colors.empty()) grey.base_color = white;  // times the vertices' colours
-        scene_.materials.push_back(grey);
+        Material gray;
+        gray.name = "default";
+        gray.model = Material::Model::phong;
+        if (!geometry_.colors.empty()) gray.base_color = white;  // times the vertices' colors
+        scene_.materials.push_back(gray);
     }
     return *default_;
 }

@@ -42,29 +42,29 @@ std::vector<char> exr_bytes(const Picture& picture);
 /// Writes `exr_bytes` in one step. throws: invalid_input with the path.
 void write_exr(const std::filesystem::path& path, const Picture& picture);
 
-/// Reads the colour and all other channels of an OpenEXR file, as `exr_picture` does.
-/// throws: invalid_input with the path when it cannot be read or has no colour.
+/// Reads the color and all other channels of an OpenEXR file, as `exr_picture` does.
+/// throws: invalid_input with the path when it cannot be read or has no color.
 Picture read_exr(const std::filesystem::path& path);
 
-/// A PNG file of 8-bit sRGB colours; `colors` in [0, 1], rows from the top. throws: std::bad_alloc.
+/// A PNG file of 8-bit sRGB colors; `colors` in [0, 1], rows from the top. throws: std::bad_alloc.
 std::vector<char> png_bytes(int width, int height, const std::vector<glm::vec3>& colors);
 
 /// Writes `png_bytes` in one step. throws: invalid_input with the path.
 void write_png(const std::filesystem::path& path, int width, int height, const std::vector<glm::vec3>& colors);
 
-/// How radiance becomes a colour in [0, 1] before the sRGB curve: exposed, bright parts compressed per channel by
+/// How radiance becomes a color in [0, 1] before the sRGB curve: exposed, bright parts compressed per channel by
 /// Reinhard's curve.
 struct ToneCurve {
     double exposure = 0;
     double white = 1;  ///< exposed radiance that becomes 1
 };
 
-/// The curve with which the log-average luminance of `picture` becomes a middle grey of 0.18 and its 99.5th percentile
+/// The curve with which the log-average luminance of `picture` becomes a middle gray of 0.18 and its 99.5th percentile
 /// white. Black pixels count for neither, and for the average none that are a thousand times darker than the 80th
 /// percentile.
 ToneCurve tone_curve(const Picture& picture);
 
-/// The pixels as colours in [0, 1]. Pictures that are to be compared need one curve.
+/// The pixels as colors in [0, 1]. Pictures that are to be compared need one curve.
 std::vector<glm::vec3> tone_mapped(const Picture& picture, const ToneCurve& curve);
 
 /// With the picture's own curve.

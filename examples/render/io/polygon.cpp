@@ -44,7 +44,7 @@ bool is_convex_fan(const std::vector<dvec2>& p) {
     for (std::size_t i = 0; i < n; ++i) {
         if (turn(p[i], p[(i + 1) % n], p[(i + 2) % n]) < 0.0) return false;
         // Outlines that go around more than once turn left all the way, too; and a fan's triangles shall have an area,
-        // so that every corner on a straight edge stays the corner of a triangle, where neighbouring faces have it.
+        // so that every corner on a straight edge stays the corner of a triangle, where neighboring faces have it.
         if (i + 2 < n && !(turn(p[0], p[i + 1], p[i + 2]) > 0.0)) return false;
     }
     return true;
@@ -77,7 +77,7 @@ public:
                 const std::uint32_t next = after_[at];
                 cut(at);
                 --left;
-                // Going on beyond the neighbour makes triangles less thin than a fan's.
+                // Going on beyond the neighbor makes triangles less thin than a fan's.
                 at = after_[next];
                 since_last = 0;
                 demand = Demand::clear;

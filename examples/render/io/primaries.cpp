@@ -23,7 +23,7 @@ glm::dmat3 to_xyz(const Primaries& p) {
     const glm::dmat3 directions(xyz_of(p.red), xyz_of(p.green), xyz_of(p.blue));
     const double volume = glm::determinant(directions);
     if (!(std::abs(volume) > 1e-6) || !(p.white.y > 1e-6) || !std::isfinite(volume)) {
-        throw std::runtime_error("its primaries and white span no colours");
+        throw std::runtime_error("its primaries and white span no colors");
     }
     const glm::dvec3 amounts = glm::inverse(directions) * white_of(p);
     return {directions[0] * amounts[0], directions[1] * amounts[1], directions[2] * amounts[2]};
@@ -61,10 +61,10 @@ glm::dvec3 ColorConversion::operator()(const glm::dvec3& color) const {
     const glm::dvec3 converted = matrix_ * color;
     const double least = std::min({converted.r, converted.g, converted.b});
     if (!(least < 0.0) || color.r < 0.0 || color.g < 0.0 || color.b < 0.0) return converted;
-    const double grey = glm::dot(luminance_, converted);
-    if (!(grey > 0.0)) return glm::dvec3(0.0);
-    // The share of the colour that is left when its least channel has become zero; rounding must not bring that back.
-    return glm::max(glm::dvec3(grey) + grey / (grey - least) * (converted - grey), 0.0);
+    const double gray = glm::dot(luminance_, converted);
+    if (!(gray > 0.0)) return glm::dvec3(0.0);
+    // The share of the color that is left when its least channel has become zero; rounding must not bring that back.
+    return glm::max(glm::dvec3(gray) + gray / (gray - least) * (converted - gray), 0.0);
 }
 
 ColorConversion from_xyz(const Primaries& to) {

@@ -30,7 +30,7 @@ public:
 
     glm::vec3 operator()(const Rgbe& pixel) const {
         glm::dvec3 color = scale_[pixel[3]] * glm::dvec3(pixel[0], pixel[1], pixel[2]);
-        // A correction of colours was made in RGB, and so before a conversion to XYZ.
+        // A correction of colors was made in RGB, and so before a conversion to XYZ.
         if (!is_xyz_) color *= factor_;
         if (conversion_) color = (*conversion_)(color);
         if (is_xyz_) color *= factor_;

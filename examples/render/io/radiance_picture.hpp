@@ -7,7 +7,7 @@
 
 namespace render {
 
-/// Reads a Radiance picture (.hdr, .pic), of RGBE or XYZE pixels, with its exposure and colour corrections undone, in
+/// Reads a Radiance picture (.hdr, .pic), of RGBE or XYZE pixels, with its exposure and color corrections undone, in
 /// any of the eight orders of pixels, run-length encoded or not [Ward, Real Pixels, in Graphics Gems II].
 ///
 /// A mantissa m with exponent e stands for m x 2^(e - 136), so that encoded and decoded powers of two are the same;

@@ -60,7 +60,7 @@ struct Checker {
         }
         const bool colored = scene.colors.empty() || scene.colors.size() == scene.positions.size();
         const bool tangent = scene.tangents.empty() || scene.tangents.size() == scene.positions.size();
-        if (!colored || !tangent) fail("not one colour or tangent per vertex; give all vertices one or none");
+        if (!colored || !tangent) fail("not one color or tangent per vertex; give all vertices one or none");
     }
 
     void vertices() const {
@@ -90,7 +90,7 @@ struct Checker {
         for (std::size_t i = 0; i < scene.colors.size(); ++i) {
             const glm::vec4& color = scene.colors[i];
             if (!is_finite_and_not_negative(glm::vec3(color)) || !(color.a >= 0.0f) || !std::isfinite(color.a)) {
-                fail("the colour of vertex " + std::to_string(i) + " is negative or not finite; correct it");
+                fail("the color of vertex " + std::to_string(i) + " is negative or not finite; correct it");
             }
         }
         for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
@@ -114,10 +114,10 @@ struct Checker {
                 }
             };
             const auto within = [](float v, float low, float high) { return v >= low && v <= high; };
-            require(is_finite_and_not_negative(m.base_color), "the base colour");
-            require(is_finite_and_not_negative(m.specular), "the specular colour");
+            require(is_finite_and_not_negative(m.base_color), "the base color");
+            require(is_finite_and_not_negative(m.specular), "the specular color");
             require(is_finite_and_not_negative(m.emission), "the emission");
-            require(is_finite_and_not_negative(m.diffuse_transmission_color), "the diffuse transmission colour");
+            require(is_finite_and_not_negative(m.diffuse_transmission_color), "the diffuse transmission color");
             require(within(m.metallic, 0.0f, 1.0f), "metallic");
             require(within(m.roughness, 0.0f, 1.0f), "roughness");
             require(within(m.transmission, 0.0f, 1.0f), "transmission");
@@ -127,7 +127,7 @@ struct Checker {
             require(within(m.exponent, 0.0f, 1e9f), "the specular exponent");
             const bool is_infinite_ior = m.model == Material::Model::microfacet && m.ior == 0.0f;
             require(is_infinite_ior || within(m.ior, 0.1f, 100.0f), "the index of refraction");
-            require(is_finite_and_not_negative(m.specular_tint), "the specular colour");
+            require(is_finite_and_not_negative(m.specular_tint), "the specular color");
             require(within(m.specular_weight, 0.0f, 1.0f), "the specular factor");
             require(std::isfinite(m.normal_scale), "the scale of the normal map");
             for (const TextureUse* use : textures_of(m)) {
@@ -234,7 +234,7 @@ struct Checker {
                 return "the position " + text(light.position) + " is not finite; correct it";
         }
         if constexpr (requires { light.radius; }) {
-            if (!is_finite(light.centre)) return "the centre " + text(light.centre) + " is not finite; correct it";
+            if (!is_finite(light.center)) return "the center " + text(light.center) + " is not finite; correct it";
             if (!(light.radius > 0.0f && std::isfinite(light.radius))) {
                 return "the radius " + text(light.radius) + " is not positive and finite; correct it";
             }
@@ -275,7 +275,7 @@ void clip_reflectances(Scene& scene) {
         for (glm::vec3* color : {&m.base_color, &m.specular, &m.diffuse_transmission_color}) {
             if (is_reflectance(*color)) continue;
             clip_reflectance(*color,
-                             "a colour " + text(*color) + " of material " + std::to_string(i) + " '" + m.name + "'",
+                             "a color " + text(*color) + " of material " + std::to_string(i) + " '" + m.name + "'",
                              scene.left_out);
         }
     }

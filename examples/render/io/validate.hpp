@@ -6,7 +6,7 @@ namespace render {
 
 /// Makes a scene safe to render, or says in one line why it is not.
 /// Left out and counted in the scene: triangles of zero area, lights of zero intensity. Cut off and named in
-/// `left_out`: what colours of reflection have above 1.
+/// `left_out`: what colors of reflection have above 1.
 /// throws: invalid_input for an empty scene, a vertex, normal, uv, material value, texture or light that is not
 /// finite or out of its range, a texture coordinate or the light of a material's surfaces that no float holds, a
 /// zero-length axis; it names the scene and the index, and leaves the scene unchanged.

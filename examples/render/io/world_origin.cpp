@@ -35,11 +35,11 @@ double extent_of(const Triangle& t) {
 /// Where most of some triangles are.
 struct Middle {
     glm::dvec3 center{0.0};
-    double size = 0;  ///< half of them lie in a cube of this size around the centre
+    double size = 0;  ///< half of them lie in a cube of this size around the center
 
     bool is_far() const { return size > 0.0 && largest_coordinate(center) > far * size; }
 
-    /// Near the centre, in few binary digits.
+    /// Near the center, in few binary digits.
     glm::dvec3 origin() const {
         const double step = std::exp2(std::floor(std::log2(size)));
         return step * glm::round(center / step);

@@ -188,7 +188,7 @@ EmissionSampler::Parts EmissionSampler::parts_of(std::span<const std::uint32_t> 
     }
 }
 
-/// True iff the surface shows but one colour of its maps.
+/// True iff the surface shows but one color of its maps.
 bool EmissionSampler::is_even(std::span<const std::uint32_t> triangles, const Parts& known) const {
     constexpr double rounding = 1e-6;
     if (known.all.empty()) return false;

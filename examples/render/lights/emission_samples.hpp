@@ -20,7 +20,7 @@ struct EmissionSample {
     glm::vec3 intensity{0.0f};  ///< along the normal, W/sr
 };
 
-/// Points that stand for what surfaces emit on their fronts. Where that varies, by texture, opacity or vertex colour, a
+/// Points that stand for what surfaces emit on their fronts. Where that varies, by texture, opacity or vertex color, a
 /// surface is cut into pieces until the integral over it is known: by bounds over each piece, so that no spot is too
 /// small to be found, down to a texel of any map.
 class EmissionSampler {

@@ -156,7 +156,7 @@ std::vector<AreaSample> spread_on_flat(const Scene& scene, std::span<const std::
         return std::nullopt;
     };
 
-    // The additive recurrence of the plastic number [Roberts 2018] from the centre: even for any count.
+    // The additive recurrence of the plastic number [Roberts 2018] from the center: even for any count.
     constexpr double step_x = 0.7548776662466927;
     constexpr double step_y = 0.5698402909980532;
     std::vector<AreaSample> samples;

@@ -51,7 +51,7 @@ std::size_t longest_edge(const Triangle& triangle, const Piece& piece);
 /// `triangles` in pieces no larger than `share` of their area, without those of no area.
 std::vector<Piece> cut_into_pieces(const Scene& scene, std::span<const std::uint32_t> triangles, double share);
 
-/// Places along a space-filling curve through a surface, so that neighbours on the curve are neighbours in space that
+/// Places along a space-filling curve through a surface, so that neighbors on the curve are neighbors in space that
 /// face about one way.
 class SpaceCurve {
 public:

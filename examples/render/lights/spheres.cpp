@@ -37,7 +37,7 @@ std::vector<lightcuts::OrientedPointLight<>> sphere_shells(const Scene& scene) {
         const double turn = static_cast<double>(i % each) * 2.399963229728653;
         const double across = std::sqrt(1.0 - y * y);
         const glm::vec3 normal(glm::dvec3(across * std::cos(turn), y, across * std::sin(turn)));
-        lights.push_back({sphere.centre + sphere.radius * normal, normal, 4.0f * point.intensity, {}});
+        lights.push_back({sphere.center + sphere.radius * normal, normal, 4.0f * point.intensity, {}});
     }
     return lights;
 }

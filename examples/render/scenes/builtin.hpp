@@ -33,7 +33,7 @@ Scene builtin_colonnade();
 Scene builtin_screens();
 
 /// A glTF file, written and read in memory, with 5 rows of 6 tiles, one for each thing that such a file may say: see
-/// docs/renderer.md. The left half of a tile says it, the right half has by plain means the colour that should come of
+/// docs/renderer.md. The left half of a tile says it, the right half has by plain means the color that should come of
 /// it. Below, pools of light of a point, a spot and a sphere.
 Scene builtin_test_card();
 

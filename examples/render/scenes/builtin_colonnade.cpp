@@ -66,7 +66,7 @@ private:
         black_ = m_.paint("black glaze", {0.035f, 0.03f, 0.03f}, 0.24f);
         leaf_ = m_.paint("cypress", {0.035f, 0.085f, 0.03f}, 1.0f);
         slabs_ = {m_.paint("pale slab", {0.66f, 0.62f, 0.55f}, 0.30f),
-                  m_.paint("grey slab", {0.56f, 0.54f, 0.50f}, 0.28f),
+                  m_.paint("gray slab", {0.56f, 0.54f, 0.50f}, 0.28f),
                   m_.paint("rose slab", {0.62f, 0.52f, 0.45f}, 0.32f)};
     }
 

@@ -17,7 +17,7 @@ namespace render {
 namespace {
 
 constexpr int cells = 34;        ///< along each side of the field
-constexpr float spacing = 1.6f;  ///< of the clutter, in metres
+constexpr float spacing = 1.6f;  ///< of the clutter, in meters
 constexpr float two_pi = 2.0f * std::numbers::pi_v<float>;
 
 /// Radiance of a clear sky: blue above, pale at the horizon, with a bright glow about the sun.

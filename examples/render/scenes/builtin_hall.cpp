@@ -225,7 +225,7 @@ private:
     void add_picture(float z, float y, float width, float height, Dice& dice) {
         m_.material = brass_;
         m_.box({-0.15f, y, z}, {-0.102f, y + height, z + width});
-        // Coloured strips as an abstract painting.
+        // Colored strips as an abstract painting.
         const int strips = 7;
         const float step = (width - 0.12f) / strips;
         for (int i = 0; i < strips; ++i) {

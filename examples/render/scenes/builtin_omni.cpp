@@ -18,8 +18,8 @@ namespace render {
 namespace {
 
 constexpr float two_pi = 2.0f * std::numbers::pi_v<float>;
-constexpr float half_size = 18.0f;     ///< of the garden, in metres
-constexpr float clearance = 0.12f;     ///< least distance of a firefly from things, in metres
+constexpr float half_size = 18.0f;     ///< of the garden, in meters
+constexpr float clearance = 0.12f;     ///< least distance of a firefly from things, in meters
 constexpr float total_power = 440.0f;  ///< sum of all intensities, W/sr: does not depend on their number
 
 /// The lawn's height: gentle hills around a level middle.

@@ -22,7 +22,7 @@ constexpr float back = -2.2f;
 constexpr float front = 3.2f;
 constexpr float ceiling = 2.9f;
 
-// A monitor's picture, in pixels and metres.
+// A monitor's picture, in pixels and meters.
 constexpr int columns = 640;
 constexpr int rows = 480;
 constexpr float picture_width = 1.2f;

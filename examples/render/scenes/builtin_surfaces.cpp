@@ -34,7 +34,7 @@ constexpr std::array lamps{Lamp{{-2.0f, 2.6f, 0.6f}, {26.0f, 21.0f, 14.0f}},
                            Lamp{{1.9f, 2.4f, -0.9f}, {22.0f, 20.0f, 16.0f}},
                            Lamp{{3.2f, 1.7f, 2.3f}, {6.0f, 9.0f, 14.0f}}};
 
-/// Lights lie this far off their surface, in metres.
+/// Lights lie this far off their surface, in meters.
 constexpr float light_offset = 1e-3f;
 
 class Room {

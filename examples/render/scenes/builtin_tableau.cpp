@@ -16,7 +16,7 @@ namespace {
 
 constexpr float tray_top = 0.022f;
 
-/// A still life, in metres; the table's top is y = 0, the camera looks from +z.
+/// A still life, in meters; the table's top is y = 0, the camera looks from +z.
 class Tableau {
 public:
     Tableau() : m_(scene_) {

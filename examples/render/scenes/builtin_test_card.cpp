@@ -23,7 +23,7 @@ using Json = GltfWriter::Json;
 Json to_json(const glm::vec3& v) { return {v.x, v.y, v.z}; }
 
 /// Writes a glTF file with a tile for each thing that such a file may say. The left half of a tile says it, the right
-/// half shows by plain colour what should come of it: of a reader that knows it, one does not see where they meet.
+/// half shows by plain color what should come of it: of a reader that knows it, one does not see where they meet.
 class TestCard {
 public:
     TestCard() {
@@ -39,7 +39,7 @@ public:
 
 private:
     static constexpr float pitch = test_card_pitch;
-    // Colours that pictures of 8 bits hold exactly.
+    // Colors that pictures of 8 bits hold exactly.
     static inline const glm::vec3 rust{srgb_to_linear(218.0f / 255.0f), srgb_to_linear(137.0f / 255.0f),
                                        srgb_to_linear(89.0f / 255.0f)};
     static inline const glm::vec3 sea{srgb_to_linear(89.0f / 255.0f), srgb_to_linear(160.0f / 255.0f),
@@ -88,7 +88,7 @@ private:
                                   {{"baseColorFactor", {color.x, color.y, color.z, 1.0}}});
     }
 
-    /// One whose base colour is `texture`, else matt.
+    /// One whose base color is `texture`, else matt.
     std::size_t matt_texture(const Json& texture, Json members = Json::object()) {
         members.update(extension("KHR_materials_specular", {{"specularFactor", 0.0}}));
         return file_.add_material(members, {{"baseColorTexture", texture}});
@@ -100,7 +100,7 @@ private:
         return material;
     }
 
-    /// A row of linear colours; `sampler`: of the glTF file.
+    /// A row of linear colors; `sampler`: of the glTF file.
     std::size_t texture(const std::vector<glm::vec3>& row, const Json& sampler) {
         const std::vector<char> png = png_bytes(static_cast<int>(row.size()), 1, row);
         const std::size_t view = file_.add_bytes(std::string(png.begin(), png.end()));
@@ -112,7 +112,7 @@ private:
 
     void add_colors_and_textures() {
         const Json nearest = {{"magFilter", 9728}, {"wrapS", 10497}};
-        glm::vec3 at = next_tile();  // vertex colours
+        glm::vec3 at = next_tile();  // vertex colors
         Json attributes = square(at);
         std::vector<float> colors;
         for (int i = 0; i < 4; ++i) colors.insert(colors.end(), {rust.x, rust.y, rust.z});

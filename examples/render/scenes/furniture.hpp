@@ -10,7 +10,7 @@
 
 namespace render {
 
-/// Furniture for the built-in scenes, in metres. Each piece stands on the origin of the modeller's `place` and is
+/// Furniture for the built-in scenes, in meters. Each piece stands on the origin of the modeller's `place` and is
 /// about as large as such a piece is; materials are indices.
 void add_table(Modeller& m, float length, float width, std::uint32_t top, std::uint32_t legs);
 void add_chair(Modeller& m, std::uint32_t wood, std::uint32_t seat);

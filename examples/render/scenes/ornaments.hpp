@@ -10,7 +10,7 @@
 namespace render {
 
 /// Things of stone, metal and glaze for the built-in scenes. Each stands on the origin of the modeller's `place`;
-/// lengths are in metres, materials are indices.
+/// lengths are in meters, materials are indices.
 
 /// A lying ring: `radius` from its middle to the middle of its pipe.
 void add_torus(Modeller& m, float radius, float pipe, int length_segments, int segments, std::uint32_t material);

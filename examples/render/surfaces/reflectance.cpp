@@ -36,7 +36,7 @@ void clip_reflectance(glm::vec3& color, const std::string& name, LeftOutList& le
 
 void clip_reflectance(std::vector<glm::vec4>& colors, LeftOutList& left_out) {
     if (const auto first = clip(colors)) {
-        name_excess("vertex colours, such as that of vertex " + std::to_string(*first), left_out);
+        name_excess("vertex colors, such as that of vertex " + std::to_string(*first), left_out);
     }
 }
 

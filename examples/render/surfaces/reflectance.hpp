@@ -18,7 +18,7 @@ bool is_reflectance(const glm::vec3& color);
 /// "what is above 1 of NAME".
 void clip_reflectance(glm::vec3& color, const std::string& name, LeftOutList& left_out);
 
-/// Likewise of vertex colours, whose alpha is cut off too.
+/// Likewise of vertex colors, whose alpha is cut off too.
 void clip_reflectance(std::vector<glm::vec4>& colors, LeftOutList& left_out);
 
 /// Likewise of all texels of a texture that says anything but what a surface emits.

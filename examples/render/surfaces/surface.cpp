@@ -25,7 +25,7 @@ struct Branch {
     glm::vec3 origin{0.0f};
     glm::vec3 direction{0.0f};
     glm::vec3 weight{1.0f};
-    float travelled = 0;
+    float traveled = 0;
     int mirrors = 0;
     int layers = 0;
 };
@@ -69,7 +69,7 @@ EyeRaySeen EyePathTracer::follow(const EyeRay& ray, std::uint32_t pixel, std::ui
         const glm::vec3 weight = at.weight * colors.opacity;
         seen.emitted += at.weight * emitted_radiance(scene_, hit->triangle, hit->u, hit->v, surface.front);
 
-        const float distance = at.travelled + hit->distance;
+        const float distance = at.traveled + hit->distance;
         const SurfaceResponse response = response_of(material, colors, surface, at.direction, shade_);
         for (const DeltaLobe& way : response.delta_lobes()) {
             const Branch branch = continued(at, surface, way, distance);

@@ -19,7 +19,7 @@ struct SurfacePoint : SurfaceLobes {
     glm::vec3 geometric_normal{0.0f};  ///< unit, towards the viewer
     glm::vec3 shading_normal{0.0f};    ///< unit, towards the viewer, above the surface
     glm::vec3 to_viewer{0.0f};         ///< unit
-    float distance = 0;                ///< travelled from the eye to here
+    float distance = 0;                ///< traveled from the eye to here
     glm::vec3 weight{1.0f};            ///< share of this point's radiance in its eye ray's
     std::uint32_t pixel = 0;           ///< y * width + x
     std::uint32_t sample = 0;          ///< eye ray within the pixel

@@ -39,7 +39,7 @@ struct Spot {
         return scene.colors.empty() ? glm::vec4(1.0f) : glm::clamp(interpolate(scene.colors), 0.0f, 1.0f);
     }
 
-    /// Base colour times vertex colour, and the alpha of whichever texture has it.
+    /// Base color times vertex color, and the alpha of whichever texture has it.
     glm::vec4 base() const {
         const Material& m = material();
         glm::vec4 texel = this->texel(m.base_color_texture);
@@ -80,7 +80,7 @@ float dielectric_reflectance(float ior) {
     return static_cast<float>(ratio * ratio);
 }
 
-/// KHR_materials_specular for the dielectric part; metals reflect their base colour.
+/// KHR_materials_specular for the dielectric part; metals reflect their base color.
 void set_microfacet_reflectance(const Spot& spot, SurfaceColors& colors) {
     const Material& m = spot.material();
     const float weight = m.specular_weight * spot.texel(m.specular_weight_texture).a;

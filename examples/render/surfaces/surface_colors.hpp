@@ -10,7 +10,7 @@
 
 namespace render {
 
-/// A material's parameters at one point: textures and vertex colours applied.
+/// A material's parameters at one point: textures and vertex colors applied.
 struct SurfaceColors {
     glm::vec3 base{0.0f};
     float opacity = 1;  ///< share of the point that is there at all: alpha MASK gives 0 or 1, BLEND alpha
@@ -32,7 +32,7 @@ SurfaceColors colors_at(const Scene& scene, std::uint32_t triangle, float u, flo
 
 /// Radiance that barycentric (u, v) of `triangle` emits towards those who see its `front`, from where its corners run
 /// counter-clockwise, or its back: what is seen of it, what lights by it, and what it shows in mirrors. Emission times
-/// its texture (and, of unlit materials, the vertex colour) times opacity; 0 on a side that does not emit.
+/// its texture (and, of unlit materials, the vertex color) times opacity; 0 on a side that does not emit.
 glm::vec3 emitted_radiance(const Scene& scene, std::uint32_t triangle, float u, float v, bool front);
 
 /// True iff `emitted_radiance` varies over triangles of `material`.

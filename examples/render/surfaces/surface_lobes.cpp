@@ -13,7 +13,7 @@ namespace {
 /// A metal smoother than this is a mirror; nothing reflects light of points more sharply.
 constexpr float mirror_roughness = 0.02f;
 
-/// Reflectance of a dielectric for unpolarised light; `eta`: index before over index behind the surface.
+/// Reflectance of a dielectric for unpolarized light; `eta`: index before over index behind the surface.
 float fresnel(float cosine, float eta) {
     const float sine2 = eta * eta * (1.0f - cosine * cosine);
     if (sine2 >= 1.0f) return 1.0f;

@@ -13,7 +13,7 @@
 
 namespace render {
 
-enum class Shade { full, diffuse };  ///< `diffuse`: everything is Lambert with its base colour, glass too
+enum class Shade { full, diffuse };  ///< `diffuse`: everything is Lambert with its base color, glass too
 
 /// How a surface spreads light.
 struct SurfaceLobes {

@@ -29,7 +29,7 @@ float reduced(float u, Texture::Wrap wrap) {
     return wrap == Texture::Wrap::mirror ? u - 2.0f * std::floor(0.5f * u) : u - std::floor(u);
 }
 
-/// A texture of linear colours.
+/// A texture of linear colors.
 Texture texture_of_picture(const Picture& picture, const std::string& name, Premultiplication premultiplication) {
     const Picture::Channel* alpha = picture.find("A");
     Texture texture;
@@ -191,12 +191,12 @@ Texture make_texture(std::string name, const EncodedImage& image, bool srgb) {
     texture.width = image.width;
     texture.height = image.height;
     texture.texels.resize(pixels);
-    const bool grey = channels < 3;
+    const bool gray = channels < 3;
     const bool has_alpha = channels == 2 || channels == 4;
     for (std::size_t p = 0; p < pixels; ++p) {
         const std::size_t i = p * channels;
         const float red = value(i, true);
-        texture.texels[p] = {red, grey ? red : value(i + 1, true), grey ? red : value(i + 2, true),
+        texture.texels[p] = {red, gray ? red : value(i + 1, true), gray ? red : value(i + 2, true),
                              has_alpha ? value(i + channels - 1, false) : 1.0f};
     }
     return texture;

@@ -36,8 +36,8 @@ void add(TexelRange& range, const TexelRange& other) {
 struct TextureRange::Axis {
     std::array<Interval, 3> intervals{};  ///< of texels that are there
     std::size_t count = 0;
-    bool is_cell = false;  ///< between the same two neighbours everywhere
-    int first = 0;         ///< the neighbours, before wrapping: this and the next
+    bool is_cell = false;  ///< between the same two neighbors everywhere
+    int first = 0;         ///< the neighbors, before wrapping: this and the next
     double from = 0;       ///< the box between them
     double to = 0;
 

@@ -43,7 +43,7 @@ inline bool contains(const Box& outer, const Box& inner) {
 }
 
 /// The middle of `b`; pre: not empty.
-inline glm::dvec3 centre(const Box& b) { return 0.5 * (glm::dvec3(b.lo) + glm::dvec3(b.hi)); }
+inline glm::dvec3 center(const Box& b) { return 0.5 * (glm::dvec3(b.lo) + glm::dvec3(b.hi)); }
 
 /// The edges of `b`; zero if empty.
 inline glm::dvec3 extent(const Box& b) { return is_empty(b) ? glm::dvec3(0.0) : glm::dvec3(b.hi) - glm::dvec3(b.lo); }
@@ -113,7 +113,7 @@ inline OffsetBox towards_lights(const Box& directions) {
 }
 
 /// The middle of `b`.
-inline glm::dvec3 centre(const OffsetBox& b) { return 0.5 * (b.lo + b.hi); }
+inline glm::dvec3 center(const OffsetBox& b) { return 0.5 * (b.lo + b.hi); }
 
 /// The point of `b` nearest to `v`.
 inline glm::dvec3 clamp(const glm::dvec3& v, const OffsetBox& b) {

@@ -143,7 +143,7 @@ inline Cone merge(const Cone& a, const Cone& b) {
     const double length = glm::length(side);
     side = length > 1e-14 ? side / length : perpendicular(u);
     const HalfAngle turn = between - surplus;
-    // The sum with zero keeps g++ 12 from leaving out the rounding to float when it vectorises what follows: the cone
+    // The sum with zero keeps g++ 12 from leaving out the rounding to float when it vectorizes what follows: the cone
     // would be measured about an axis that is not the stored one.
     const glm::vec3 axis = glm::vec3(glm::normalize(u * turn.cos + side * turn.sin)) + 0.0f;
 

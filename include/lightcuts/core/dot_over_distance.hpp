@@ -90,13 +90,13 @@ inline double differ(double x, double y) {
 /// The vertex of the box farthest along v, within rounding; without branches.
 inline glm::dvec3 vertex_along(const glm::dvec3& v, const OffsetBox& b) {
     const glm::dvec3 half = 0.5 * (b.hi - b.lo);
-    return centre(b) + glm::dvec3(std::copysign(half.x, v.x), std::copysign(half.y, v.y), std::copysign(half.z, v.z));
+    return center(b) + glm::dvec3(std::copysign(half.x, v.x), std::copysign(half.y, v.y), std::copysign(half.z, v.z));
 }
 
-/// Least |p|^2 / v.p of three points of the box, where v.p > 0: its centre, its vertex farthest along v, its point
+/// Least |p|^2 / v.p of three points of the box, where v.p > 0: its center, its vertex farthest along v, its point
 /// `nearest` to the origin. Divided by k, a start for the iteration; never too small.
 inline double start_of(const glm::dvec3& v, const OffsetBox& b, const glm::dvec3& nearest, double d2, double support) {
-    const glm::dvec3 middle = centre(b);
+    const glm::dvec3 middle = center(b);
     const glm::dvec3 farthest = vertex_along(v, b);
     const auto value = [](double p2, double along) { return p2 / larger(along, (std::numeric_limits<double>::min)()); };
     const double from_farthest = dot(farthest, farthest) / support;
@@ -232,7 +232,7 @@ template <int K>
     }
 }
 
-/// Two certificates, the first at the centre of the box, for each lane: bounds (v.p)+ / |p|^K. Zero where the support
+/// Two certificates, the first at the center of the box, for each lane: bounds (v.p)+ / |p|^K. Zero where the support
 /// says that nothing lies in front.
 template <int K>
 LIGHTCUTS_VECTORIZED void max_dots_over_distance(const LaneVectors& v, const LaneSupport& s, const OffsetBlock& b,
@@ -242,10 +242,10 @@ LIGHTCUTS_VECTORIZED void max_dots_over_distance(const LaneVectors& v, const Lan
     for (int i = 0; i < lane_count; ++i) {
         const float cx = b.center(0, i), cy = b.center(1, i), cz = b.center(2, i);
         const float most = s.value[i] + s.noise[i];
-        const float at_centre = v.x[0][i] * cx + v.x[1][i] * cy + v.x[2][i] * cz;
-        const bool in_front = at_centre > 0.0f;
+        const float at_center = v.x[0][i] * cx + v.x[1][i] * cy + v.x[2][i] * cz;
+        const bool in_front = at_center > 0.0f;
         step[i] = select(in_front, cx * cx + cy * cy + cz * cz, b.farthest2[i]) /
-                  (k * select(in_front, at_centre, most));
+                  (k * select(in_front, at_center, most));
         step[i] = smaller(larger(step[i], 1e-18f), 1e18f);  // any will do that overflows nothing
         const float inverse = b.inverse[i];
         // From the left, since the powers alone would be denormal far away.

@@ -15,7 +15,7 @@ namespace lightcuts {
 
 namespace detail {
 
-/// u.p / n.p at the best of three points of the box: its centre, its point nearest to the origin and its vertex
+/// u.p / n.p at the best of three points of the box: its center, its point nearest to the origin and its vertex
 /// farthest along n + u. Best means the largest (n.p)+ (u.p)+ / |p|^4; if none is positive, 1.
 inline double joint_start(const glm::dvec3& n, const glm::dvec3& u, const OffsetBox& b) {
     double best = 0.0;
@@ -31,7 +31,7 @@ inline double joint_start(const glm::dvec3& n, const glm::dvec3& u, const Offset
         best_u = better * along_u + (1.0 - better) * best_u;
         best = larger(best, value);
     };
-    consider(centre(b));
+    consider(center(b));
     consider(clamp(glm::dvec3(0.0), b));
     consider(vertex_along(n + u, b));
     return clamp(best_u / best_n, 0x1p-12, 0x1p12);
@@ -92,12 +92,12 @@ struct NearestDirection {
     bool exists;
 };
 
-/// d is the cone's direction nearest to the direction w of the box's centre; epsilon = 1 - cos(delta) with delta the
+/// d is the cone's direction nearest to the direction w of the box's center; epsilon = 1 - cos(delta) with delta the
 /// largest angle from w to a corner. Exists if delta < 90 degrees and either w lies in the cone or the angle from the
 /// axis to w plus beta is at most 180 degrees.
 inline NearestDirection nearest_direction(const Cone& cone, const OffsetBox& b) {
     const NearestDirection none{{}, 0.0, false};
-    const glm::dvec3 middle = centre(b);
+    const glm::dvec3 middle = center(b);
     const double length = glm::length(middle);
     if (!(length > 0.0)) return none;
     const glm::dvec3 w = middle / length;

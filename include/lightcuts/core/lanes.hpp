@@ -30,7 +30,7 @@ struct LaneVectors {
 namespace detail {
 
 /// `condition ? a : b` by masks: a conditional would let compilers compute an arm only where it is needed, and then
-/// refuse to vectorise the loop.
+/// refuse to vectorize the loop.
 [[gnu::always_inline]] inline float select(bool condition, float a, float b) {
     const std::uint32_t mask = 0u - static_cast<std::uint32_t>(condition);
     return std::bit_cast<float>((std::bit_cast<std::uint32_t>(a) & mask) | (std::bit_cast<std::uint32_t>(b) & ~mask));
@@ -42,7 +42,7 @@ namespace detail {
 [[gnu::always_inline]] inline float larger(float x, float y) { return select(x > y, x, y); }
 [[gnu::always_inline]] inline float smaller(float x, float y) { return select(x < y, x, y); }
 
-/// 1 / sqrt(x) within 2e-7, in arithmetic that vectorises everywhere (sqrt itself sets errno); finite at 0.
+/// 1 / sqrt(x) within 2e-7, in arithmetic that vectorizes everywhere (sqrt itself sets errno); finite at 0.
 [[gnu::always_inline]] inline float inverse_sqrt(float x) {
     float y = std::bit_cast<float>(0x5f375a86u - (std::bit_cast<std::uint32_t>(x) >> 1));
     const float half = 0.5f * x;

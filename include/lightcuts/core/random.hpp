@@ -4,7 +4,7 @@
 
 namespace lightcuts {
 
-/// Mixes 64 bits so that every input bit flips each output bit with a probability near one half (the finaliser of
+/// Mixes 64 bits so that every input bit flips each output bit with a probability near one half (the finalizer of
 /// SplitMix64). Bijective.
 constexpr std::uint64_t mix_bits(std::uint64_t x) {
     x += 0x9e3779b97f4a7c15u;

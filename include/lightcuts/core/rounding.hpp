@@ -14,7 +14,7 @@ namespace lightcuts {
 inline constexpr double unit_roundoff = 0x1p-53;
 
 /// The next number above `x`; NaN and +infinity stay. Bit arithmetic only, so it also works where denormals are
-/// flushed, and in vectorised loops.
+/// flushed, and in vectorized loops.
 constexpr float next_up(float x) {
     const auto bits = std::bit_cast<std::uint32_t>(x);
     const std::uint32_t magnitude = bits & 0x7fffffffu;

@@ -10,7 +10,7 @@ namespace lightcuts {
 /// How the library reads the channels of a spectrum type.
 ///
 /// The primary template serves types that state `static constexpr int channels` and index with `operator[]`.
-/// Specialise it (same two members) for a type that cannot be edited.
+/// Specialize it (same two members) for a type that cannot be edited.
 template <class S>
 struct spectrum_traits {};
 

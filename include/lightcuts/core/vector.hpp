@@ -10,7 +10,7 @@ namespace lightcuts {
 /// How the library reads a three-dimensional vector that it does not own.
 ///
 /// The primary template serves every type with readable members `x`, `y`, `z` (GLM's among them).
-/// Specialise it for any other type:
+/// Specialize it for any other type:
 /// ```
 /// template <> struct lightcuts::vector_traits<MyVector> {
 ///     static float x(const MyVector& v) { return v[0]; }  // likewise y, z

@@ -15,7 +15,7 @@ namespace lightcuts {
 
 /// The most that one light of a ClampableLight kind may add at a receiver. The limits hold together, in every channel;
 /// an infinite one is off. A cluster of n lights may add n times as much, so that error bounds stay bounds.
-struct ClampOptions {
+struct ClampingOptions {
     /// Radiance. pre: >= 0.
     float radiance = std::numeric_limits<float>::infinity();
     /// Share of the receiver's total, itself clamped [Lightcuts 2005, section 5]; 1 and above is off. Where fewer than
@@ -24,7 +24,7 @@ struct ClampOptions {
     /// the squared diagonal of their box: so the total is continuous in what each adds. pre: >= 0.
     float ratio = std::numeric_limits<float>::infinity();
     /// Material x geometric term, per unit intensity [Multidimensional Lightcuts 2006, Eq. 14]. pre: >= 0.
-    float terms = std::numeric_limits<float>::infinity();
+    float transfer = std::numeric_limits<float>::infinity();
 
     /// True if the threshold follows from the total.
     bool is_automatic() const { return ratio < 1.0f; }
@@ -33,7 +33,7 @@ struct ClampOptions {
 };
 
 /// No clamped light adds more than a hundredth of the total where 200 arrive, or twice the mean where fewer do.
-inline constexpr ClampOptions automatic_clamping{.ratio = 0.01f};
+inline constexpr ClampingOptions automatic_clamping{.ratio = 0.01f};
 
 namespace detail {
 
@@ -58,7 +58,7 @@ struct ClampedTotal {
 /// The share of the total that one of `lights` may add, which are the clamped ones that arrive; infinite if that is
 /// all of it, which a share of 1 is too. At least twice the share of each if they are alike: n lights of more than 1 /
 /// n each have no total but 0. Continuous.
-inline double effective_ratio(const ClampOptions& clamp, double lights) {
+inline double effective_ratio(const ClampingOptions& clamp, double lights) {
     const auto stated = static_cast<double>(clamp.ratio);
     // A little more than 2 / n, so that it is all the same whether to a whole number of lights next to nothing is
     // added.
@@ -73,7 +73,7 @@ inline double effective_ratio(const ClampOptions& clamp, double lights) {
 }
 
 /// The threshold under a total that may be infinite; `ratio` as it is effective.
-inline double clamp_threshold(const ClampOptions& clamp, double ratio, double total) {
+inline double clamp_threshold(const ClampingOptions& clamp, double ratio, double total) {
     const double limit = static_cast<double>(clamp.radiance);
     const double share = ratio < 1.0 ? ratio * total : limit;
     return share < limit ? share : limit;
@@ -123,7 +123,7 @@ struct LightCount {
     ChannelSums<S> per_radiance;  ///< see `counts_per_radiance`
     double many;                  ///< 2 / ratio, and some for rounding
 
-    LightCount(const ClampOptions& clamp, const ChannelSums<S>& counts)
+    LightCount(const ClampingOptions& clamp, const ChannelSums<S>& counts)
         : per_radiance(counts), many(2.000001 / static_cast<double>(clamp.ratio)) {}
 
     bool is_known() const {
@@ -143,7 +143,7 @@ struct LightCount {
 /// The effective ratio in every channel; infinite if clamping is not automatic. `counts`: see `counts_per_radiance`.
 /// `visit(f)` as for `clamped_total`.
 template <Spectrum S, class Visit>
-ChannelSums<S> effective_ratios(const ClampOptions& clamp, const ChannelSums<S>& counts, const Visit& visit) {
+ChannelSums<S> effective_ratios(const ClampingOptions& clamp, const ChannelSums<S>& counts, const Visit& visit) {
     LightCount<S> arriving(clamp, counts);
     bool known = !clamp.is_automatic();
     visit([&](const S& raw, double lights) {
@@ -163,7 +163,7 @@ ChannelSums<S> effective_ratios(const ClampOptions& clamp, const ChannelSums<S>&
 /// threshold is that of a total within `tolerance` of the root, and the total is the sum under this very threshold.
 /// `ratio`: effective.
 template <Spectrum S, class Visit>
-ClampedTotal<S> clamped_total(const ClampOptions& clamp, const ChannelSums<S>& ratio, const ChannelSums<S>& fixed,
+ClampedTotal<S> clamped_total(const ClampingOptions& clamp, const ChannelSums<S>& ratio, const ChannelSums<S>& fixed,
                               ChannelSums<S> guess, double tolerance, const Visit& visit) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     constexpr int most_steps = 100;
@@ -223,8 +223,8 @@ struct ArrivingLights {
 /// estimates and the ratio of fewest lights, though a larger contribution may count for more lights. Tangents of the
 /// latter function are above it, chords of the former below.
 template <Spectrum S, class Visit>
-ChannelSums<S> clamped_error(const ClampOptions& clamp, const ClampedTotal<S>& cut, const ArrivingLights<S>& arriving,
-                             const Visit& visit) {
+ChannelSums<S> clamped_error(const ClampingOptions& clamp, const ClampedTotal<S>& cut,
+                             const ArrivingLights<S>& arriving, const Visit& visit) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     struct Sums {
         double upper_threshold = 0, lower_threshold = 0;  ///< under the cut's total, by the extreme ratios

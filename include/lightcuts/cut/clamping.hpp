@@ -17,7 +17,7 @@ public:
     using Node = CutNode<S, true>;
 
     template <class Forest>
-    void start(const ClampOptions& options, const Forest& forest) {
+    void start(const ClampingOptions& options, const Forest& forest) {
         *this = {};
         options_ = options;
         if (options.is_automatic()) counts_ = counts_per_radiance(forest);
@@ -156,7 +156,7 @@ private:
         return arriving;
     }
 
-    ClampOptions options_;
+    ClampingOptions options_;
     Sums threshold_{};       ///< radiance: the most that a light adds
     Sums share_{};           ///< the most that a light's error adds to a priority
     Sums base_share_{};      ///< shares at the last checkpoint

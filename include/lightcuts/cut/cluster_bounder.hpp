@@ -8,8 +8,8 @@
 #include "../bound/policy.hpp"
 #include "../core/assertion.hpp"
 #include "../core/reusable_list.hpp"
+#include "../shading/shadow_origin.hpp"
 #include "../visibility/oracle.hpp"
-#include "../visibility/shadow_origin.hpp"
 #include "cut_node.hpp"
 #include "forest.hpp"
 #include "refinement.hpp"
@@ -64,7 +64,7 @@ private:
         quick_bounds(policy_, receiver_.material, clusters.data(), count, place, units.data());
         for (std::size_t i = 0; i < count; ++i) {
             Node& n = frontier[candidates[i]->at];
-            LIGHTCUTS_ASSERT(dominates(units[i], n.terms) &&
+            LIGHTCUTS_ASSERT(dominates(units[i], n.transfer) &&
                              "a bound is below what evaluate() returns: do both include the cosine?");
             lower_bound(n, units[i], *clusters[i]);
             n.bounded = true;
@@ -90,10 +90,10 @@ private:
         }
     }
 
-    /// True unless a representative's terms exceed a bound of them by more than rounding.
-    static bool dominates(const S& unit, const S& terms) {
+    /// True unless a representative's transfer exceeds a bound of it by more than rounding.
+    static bool dominates(const S& unit, const S& transfer) {
         for (int c = 0; c < channels_of<S>; ++c) {
-            if (channel(terms, c) > 1.0001f * channel(unit, c)) return false;
+            if (channel(transfer, c) > 1.0001f * channel(unit, c)) return false;
         }
         return true;
     }

@@ -23,13 +23,13 @@ struct CutNode {
 
     std::uint32_t node = 0;            ///< in its tree
     std::uint32_t representative = 0;  ///< leaf of the tree that stands for the cluster
-    S terms = black<S>();              ///< the representative's material x geometric x visibility terms
-    S estimate = black<S>();           ///< terms x cluster intensity [Lightcuts 2005, Eq. 2]
-    S unit_bound = black<S>();         ///< upper bound of material x geometric terms, the cluster's or its parent's
+    S transfer = black<S>();           ///< the representative's material x geometric term x visibility
+    S estimate = black<S>();           ///< transfer x cluster intensity [Lightcuts 2005, Eq. 2]
+    S unit_bound = black<S>();         ///< upper bound of material x geometric term, the cluster's or its parent's
     S bound = black<S>();              ///< upper bound of the cluster's error; 0 for a single light
     std::uint8_t kind = 0;             ///< tree of the forest
     bool bounded = false;              ///< `unit_bound` is the cluster's own
-    bool queried = false;              ///< `terms` waits for the representative, or for its shadow ray
+    bool queried = false;              ///< `transfer` waits for the representative, or for its shadow ray
     /// In every channel the representative has at least 2^(1-this) of the cluster's intensity; 0: it may have none.
     [[no_unique_address]] PartExponent part{};
     /// Of the cluster; infinite if its kind is not clamped.

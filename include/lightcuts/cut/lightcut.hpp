@@ -23,7 +23,7 @@ struct CutResult {
     /// Sum of the error bounds of the cut's clusters, absolute radiance; infinite if a cluster that may touch the
     /// receiver is left on the cut. With automatic clamping it includes what errors do to the threshold. Beside it
     /// stands the rounding of float: 1e-5 of the radiance; and what float cannot hold: 2^-126 of all lights' intensity
-    /// where terms or visibility are smaller than that, as beyond distances of 1e18, and radiance above the largest
+    /// where transfer or visibility are smaller than that, as beyond distances of 1e18, and radiance above the largest
     /// float, of one light or of all, is the largest float.
     S error_bound = black<S>();
     /// Radiance that no clamped light exceeded; infinite if there was no limit, as in automatic clamping of two or
@@ -197,11 +197,13 @@ Lightcut(const Lights&, const R&, const Oracle&, const LightcutOptions& = {}, co
 
 namespace detail {
 
+// Never inlined: where products and sums are contracted, each copy of this code could round in its own way.
+
 template <class Forest, class M, class Oracle, class Policy>
-void shade_one_by_one(const Forest& forest, std::span<const Receiver<M>> receivers, const Oracle& oracle,
-                      std::span<CutResult<typename Forest::spectrum>> results,
-                      LightcutScratch<typename Forest::spectrum, Forest::clamps>& scratch,
-                      const LightcutOptions& options, const Policy& policy) {
+[[gnu::noinline]] void shade_one_by_one(const Forest& forest, std::span<const Receiver<M>> receivers,
+                                        const Oracle& oracle, std::span<CutResult<typename Forest::spectrum>> results,
+                                        LightcutScratch<typename Forest::spectrum, Forest::clamps>& scratch,
+                                        const LightcutOptions& options, const Policy& policy) {
     const RefinementOptions refinement = refinement_options(forest, options);
     if (scratch.in_progress.empty()) scratch.in_progress.resize(1);
     auto& slot = scratch.in_progress.front();
@@ -214,10 +216,10 @@ void shade_one_by_one(const Forest& forest, std::span<const Receiver<M>> receive
 }
 
 template <class Forest, class M, class Oracle, class Policy>
-void shade_in_lock_step(const Forest& forest, std::span<const Receiver<M>> receivers, const Oracle& oracle,
-                        std::span<CutResult<typename Forest::spectrum>> results,
-                        LightcutScratch<typename Forest::spectrum, Forest::clamps>& scratch,
-                        const LightcutOptions& options, const Policy& policy) {
+[[gnu::noinline]] void shade_in_lock_step(const Forest& forest, std::span<const Receiver<M>> receivers,
+                                          const Oracle& oracle, std::span<CutResult<typename Forest::spectrum>> results,
+                                          LightcutScratch<typename Forest::spectrum, Forest::clamps>& scratch,
+                                          const LightcutOptions& options, const Policy& policy) {
     using S = typename Forest::spectrum;
     const RefinementOptions refinement = refinement_options(forest, options);
     const auto problem_of = [&](std::size_t i, auto& slot) {

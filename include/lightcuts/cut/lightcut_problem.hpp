@@ -67,7 +67,7 @@ public:
         forest_.visit(parent.kind, [&](const auto& tree) {
             const std::uint32_t right = tree.topology().right(parent.node);
             const std::uint32_t left = tree.topology().left(parent.node);
-            // The child that holds the parent's representative keeps it, and its terms with it.
+            // The child that holds the parent's representative keeps it, and its transfer with it.
             const bool in_left = parent.representative <= left;
             append_inheriting(tree, parent, in_left ? left : right, out);
             append(tree, parent.kind, in_left ? right : left, parent.unit_bound, out);
@@ -80,7 +80,7 @@ public:
             frontier, candidates, [this](const node& n) { return priority(n); }, threshold);
     }
 
-    /// Finds the terms of new representatives; a batched oracle's queries go to the caller's list.
+    /// Finds the transfer of new representatives; a batched oracle's queries go to the caller's list.
     void request(std::span<node> fresh) { queries_ += representatives_.request(fresh); }
 
     /// Traces the shadow rays of new nodes one by one.
@@ -139,7 +139,7 @@ private:
         // An oracle that bounds clusters may know of many lights at once that they are hidden.
         if constexpr (detail::bounds_clusters<Oracle, R, Forest>) return Start::roots;
         const std::size_t lights = forest_.light_count();
-        if (lights <= options_.few_lights && (options_.max_cut == 0 || lights <= options_.max_cut)) {
+        if (lights <= options_.exhaustive_below && (options_.max_cut == 0 || lights <= options_.max_cut)) {
             return Start::lights;
         }
         // A cut that is limited to few clusters chooses each of them.
@@ -148,11 +148,11 @@ private:
 
     double floor() const { return 0.1 * static_cast<double>(options_.adaptation); }
 
-    /// What is known of a cluster's terms without looking at it.
+    /// What is known of a cluster's transfer without looking at it.
     template <class Tree>
     S largest_terms(const Tree&) const {
         float largest = std::numeric_limits<float>::infinity();
-        if constexpr (ClampableLight<typename Tree::light_type>) largest = options_.clamp.terms;
+        if constexpr (ClampableLight<typename Tree::light_type>) largest = options_.clamp.transfer;
         return make_spectrum<S>([&](int) { return largest; });
     }
 
@@ -183,7 +183,7 @@ private:
                 ReusableList<node>& out) const {
         node& n = append_bounded(tree, kind, index, unit_bound, out);
         n.queried = true;
-        n.terms = black<S>();
+        n.transfer = black<S>();
         n.estimate = black<S>();
         if constexpr (clamps) n.part = 0;
         if (tree.topology().is_leaf(index)) {
@@ -196,15 +196,15 @@ private:
         }
     }
 
-    /// Appends the child that holds its parent's representative: its terms are known.
+    /// Appends the child that holds its parent's representative: its transfer is known.
     template <class Tree>
     static void append_inheriting(const Tree& tree, const node& parent, std::uint32_t index, ReusableList<node>& out) {
         node& n = append_bounded(tree, parent.kind, index, parent.unit_bound, out);
         n.queried = false;
         n.representative = parent.representative;
-        n.terms = parent.terms;
+        n.transfer = parent.transfer;
         if constexpr (clamps) n.part = parent.part;
-        n.estimate = finite_product(n.terms, tree.clusters()[index].intensity);
+        n.estimate = finite_product(n.transfer, tree.clusters()[index].intensity);
     }
 
     double density(const node& n) const {

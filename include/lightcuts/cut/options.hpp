@@ -17,7 +17,7 @@ struct LightcutOptions {
     /// If no more lights than this are lit, in all trees together, the cut starts with each of them and is exact: to
     /// bound clusters of so few takes longer than to trace the shadow rays that it saves. 0 turns it off, as does a
     /// BoundedOracle: lower it where a shadow ray costs microseconds.
-    std::size_t few_lights = 256;
+    std::size_t exhaustive_below = 256;
     /// Radiance that the viewer's eye is adapted to. A tenth of it is added to the total before bounds are compared
     /// with it, so that darkness is not refined beyond what such an eye sees [Multidimensional Lightcuts 2006, Eq. 15].
     float adaptation = 0.0f;
@@ -26,7 +26,7 @@ struct LightcutOptions {
     /// See RefinementOptions.
     double round_fraction = 0.1;
     /// Of lights whose kind is a ClampableLight. Off by default.
-    ClampOptions clamp{};
+    ClampingOptions clamp{};
 };
 
 }  // namespace lightcuts

@@ -6,16 +6,16 @@
 #include <span>
 
 #include "../core/reusable_list.hpp"
-#include "../material/terms.hpp"
+#include "../shading/shadow_origin.hpp"
+#include "../shading/transfer.hpp"
 #include "../visibility/oracle.hpp"
-#include "../visibility/shadow_origin.hpp"
 #include "clamp.hpp"
 #include "cut_node.hpp"
 #include "forest.hpp"
 
 namespace lightcuts::detail {
 
-/// Looks at the representatives of new nodes of one receiver's cut: their terms without shadows, then their shadow
+/// Looks at the representatives of new nodes of one receiver's cut: their transfer without shadows, then their shadow
 /// rays, one by one or as queries of a stream.
 template <class Forest, class R, class Oracle>
 class RepresentativeBatch {
@@ -23,11 +23,11 @@ public:
     using S = typename Forest::spectrum;
     using Node = CutNode<S, Forest::clamps>;
 
-    RepresentativeBatch(const Forest& forest, const R& receiver, const Oracle& oracle, const ClampOptions& clamp,
+    RepresentativeBatch(const Forest& forest, const R& receiver, const Oracle& oracle, const ClampingOptions& clamp,
                         ReusableList<VisibilityQuery>& queries)
         : forest_(forest), receiver_(receiver), oracle_(oracle), clamp_(clamp), queries_(queries) {}
 
-    /// Finds the terms of the representatives that are not shared with a parent, shadows apart; a batched oracle's
+    /// Finds the transfer of the representatives that are not shared with a parent, shadows apart; a batched oracle's
     /// queries go to the caller's list. Returns the number of shadow rays.
     std::uint32_t request(std::span<Node> fresh) const {
         std::uint32_t rays = 0;
@@ -62,12 +62,12 @@ public:
         if constexpr (std::same_as<A, float>) {
             if (visibility == 1.0f) return;
         }
-        n.terms = n.terms * visibility;
+        n.transfer = n.transfer * visibility;
         if (!is_saturated(n.estimate)) [[likely]] {
             n.estimate = n.estimate * visibility;
         } else {
             forest_.visit(n.kind, [&](const auto& tree) {
-                n.estimate = finite_product(n.terms, tree.clusters()[n.node].intensity);
+                n.estimate = finite_product(n.transfer, tree.clusters()[n.node].intensity);
             });
         }
     }
@@ -77,7 +77,7 @@ private:
     std::uint32_t request(const Tree& tree, std::span<Node* const> nodes) const {
         using L = typename Tree::light_type;
         LightBlock lights;
-        LaneSpectra<S> terms;
+        LaneSpectra<S> transfer;
         const auto light_of = [&](int i) -> const L& {
             return tree.lights()[tree.topology().item(nodes[static_cast<std::size_t>(i)]->representative)];
         };
@@ -88,21 +88,21 @@ private:
             if constexpr (OrientedLight<L>) lights.axis.set(i, leaf.cone.axis);
         }
         lights.template finish<L>(count);
-        unshadowed_terms<L>(receiver_, lights, count, light_of, terms);
+        unshadowed_transfer<L>(receiver_, lights, count, light_of, transfer);
         std::uint32_t rays = 0;
         for (int i = 0; i < count; ++i) {
             Node& n = *nodes[static_cast<std::size_t>(i)];
-            n.terms = terms[static_cast<std::size_t>(i)];
+            n.transfer = transfer[static_cast<std::size_t>(i)];
             if constexpr (ClampableLight<L>) {
-                n.terms = at_most(n.terms, clamp_.terms);
+                n.transfer = at_most(n.transfer, clamp_.transfer);
                 if (clamp_.is_automatic()) {
                     n.part = representative_part(tree.clusters()[n.representative].intensity,
                                                  tree.clusters()[n.node].intensity);
                 }
             }
-            n.queried = !is_black(n.terms);
+            n.queried = !is_black(n.transfer);
             if (!n.queried) continue;
-            n.estimate = finite_product(n.terms, tree.clusters()[n.node].intensity);
+            n.estimate = finite_product(n.transfer, tree.clusters()[n.node].intensity);
             if constexpr (std::same_as<Oracle, AlwaysVisible>) {
                 n.queried = false;
                 continue;
@@ -125,7 +125,7 @@ private:
     const Forest& forest_;
     const R& receiver_;
     const Oracle& oracle_;
-    const ClampOptions& clamp_;  ///< of clamped lights
+    const ClampingOptions& clamp_;  ///< of clamped lights
     ReusableList<VisibilityQuery>& queries_;
 };
 

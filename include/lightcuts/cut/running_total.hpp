@@ -19,7 +19,7 @@ public:
 
     /// The arguments are looked at only if `Clamps`.
     template <class Forest>
-    void start([[maybe_unused]] const ClampOptions& clamp, [[maybe_unused]] const Forest& forest) {
+    void start([[maybe_unused]] const ClampingOptions& clamp, [[maybe_unused]] const Forest& forest) {
         *this = {};
         weight_.fill(darkest);
         if constexpr (Clamps) {

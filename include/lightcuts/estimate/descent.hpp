@@ -115,7 +115,7 @@ S weighted(const S& radiance, double weight) {
     return finite(make_spectrum<S>([&](int c) { return static_cast<double>(channel(radiance, c)) * weight; }));
 }
 
-/// The weighted sum over the scratch's drawn lights. Those whose terms are zero cost no shadow ray.
+/// The weighted sum over the scratch's drawn lights. Those whose transfer is zero cost no shadow ray.
 template <class Forest, class M, class Oracle>
 Estimate<typename Forest::spectrum> estimate_draws(const Forest& forest, const Receiver<M>& receiver,
                                                    const Oracle& oracle,
@@ -126,7 +126,7 @@ Estimate<typename Forest::spectrum> estimate_draws(const Forest& forest, const R
     using Contribution = typename EstimateScratch<S>::Contribution;
     const auto& draws = scratch.draws;
     scratch.contributions.clear();
-    LaneSpectra<S> terms;
+    LaneSpectra<S> transfer;
     for (std::size_t begin = 0; begin < draws.size();) {
         const std::uint32_t kind = draws[begin].kind;
         std::size_t end = begin + 1;
@@ -137,9 +137,9 @@ Estimate<typename Forest::spectrum> estimate_draws(const Forest& forest, const R
                 return tree.lights()[draws[begin + static_cast<std::size_t>(i)].light];
             };
             const int count = static_cast<int>(end - begin);
-            unshadowed_terms<L>(receiver, count, light_of, terms);
+            unshadowed_transfer<L>(receiver, count, light_of, transfer);
             for (int i = 0; i < count; ++i) {
-                const S radiance = finite_product(terms[static_cast<std::size_t>(i)], S(intensity_of(light_of(i))));
+                const S radiance = finite_product(transfer[static_cast<std::size_t>(i)], S(intensity_of(light_of(i))));
                 if (is_black(radiance)) continue;
                 const auto& draw = draws[begin + static_cast<std::size_t>(i)];
                 scratch.contributions.push_back({weighted(radiance, draw.weight), draw.light, kind});

@@ -11,9 +11,9 @@
 #include "../cut/clamp.hpp"
 #include "../cut/forest.hpp"
 #include "../cut/refinement.hpp"
-#include "../material/terms.hpp"
+#include "../shading/shadow_origin.hpp"
+#include "../shading/transfer.hpp"
 #include "../visibility/oracle.hpp"
-#include "../visibility/shadow_origin.hpp"
 #include "importance.hpp"
 
 namespace lightcuts {
@@ -73,23 +73,23 @@ struct EstimateScratch {
 
 namespace detail {
 
-/// Calls `f(i, contribution)` for each of the lights that contributes if nothing shadows it: terms x intensity. As
-/// many at a time as a cut takes, so that both see the same values. `clamp`: of which the limit of terms applies.
+/// Calls `f(i, contribution)` for each of the lights that contributes if nothing shadows it: transfer x intensity. As
+/// many at a time as a cut takes, so that both see the same values. `clamp`: of which the limit of transfer applies.
 template <class M, Light L, class F>
 void for_each_unshadowed(const Receiver<M>& receiver, std::span<const L> lights, F&& f,
-                         [[maybe_unused]] const ClampOptions& clamp = {}) {
+                         [[maybe_unused]] const ClampingOptions& clamp = {}) {
     static_assert(Material<std::remove_cvref_t<M>>,
                   "a material needs evaluate(to_light) const, which returns a Spectrum");
     using S = spectrum_of<L>;
-    LaneSpectra<S> terms;
+    LaneSpectra<S> transfer;
     for (std::size_t begin = 0; begin < lights.size(); begin += lane_count) {
         const std::span<const L> members = lights.subspan(begin,
                                                           std::min<std::size_t>(lane_count, lights.size() - begin));
         const auto light_of = [&](int i) -> const L& { return members[static_cast<std::size_t>(i)]; };
-        unshadowed_terms<L>(receiver, static_cast<int>(members.size()), light_of, terms);
+        unshadowed_transfer<L>(receiver, static_cast<int>(members.size()), light_of, transfer);
         for (std::size_t i = 0; i < members.size(); ++i) {
-            if constexpr (ClampableLight<L>) terms[i] = at_most(terms[i], clamp.terms);
-            const S contribution = finite_product(terms[i], S(intensity_of(members[i])));
+            if constexpr (ClampableLight<L>) transfer[i] = at_most(transfer[i], clamp.transfer);
+            const S contribution = finite_product(transfer[i], S(intensity_of(members[i])));
             if (!is_black(contribution)) f(static_cast<std::uint32_t>(begin + i), contribution);
         }
     }

@@ -8,7 +8,7 @@ namespace detail {
 
 /// The contributions of unclamped lights and the list of the others, added up under the threshold of `clamp`.
 template <Spectrum S>
-void add_clamped(const ClampOptions& clamp, const ChannelSums<S>& counts, const RadianceSum<S>& unclamped,
+void add_clamped(const ClampingOptions& clamp, const ChannelSums<S>& counts, const RadianceSum<S>& unclamped,
                  std::span<const S> clamped, Estimate<S>& result) {
     const auto visit = [&](auto&& f) {
         for (const S& contribution : clamped) f(contribution, 1.0);
@@ -22,13 +22,13 @@ void add_clamped(const ClampOptions& clamp, const ChannelSums<S>& counts, const 
 }  // namespace detail
 
 /// The exact sum over all lights [Lightcuts 2005, Eq. 1], in double; what a lightcut with the same clamping
-/// approximates. A light adds no more than the largest float, after its shadow. A light whose terms are zero costs no
+/// approximates. A light adds no more than the largest float, after its shadow. A light whose transfer is zero costs no
 /// shadow ray. cost: linear in the lights; a batched oracle gets up
 /// to 1024 rays at once. memory: with clamping, the scratch holds a spectrum for each clamped light.
 template <TreeOrForest Lights, class M, class Oracle>
 Estimate<forest_spectrum<Lights>> exhaustive(const Lights& lights, const Receiver<M>& receiver, const Oracle& oracle,
                                              EstimateScratch<forest_spectrum<Lights>>& scratch,
-                                             const ClampOptions& clamp = {}) {
+                                             const ClampingOptions& clamp = {}) {
     const auto& forest = as_forest(lights);
     using S = forest_spectrum<Lights>;
     using Contribution = typename EstimateScratch<S>::Contribution;
@@ -42,11 +42,11 @@ Estimate<forest_spectrum<Lights>> exhaustive(const Lights& lights, const Receive
             // As a cut does: one rounding more decides at a horizon.
             const auto& light = tree.lights()[c.light];
             using L = std::remove_cvref_t<decltype(light)>;
-            LaneSpectra<S> terms;
-            unshadowed_terms<L>(
-                receiver, 1, [&](int) -> const L& { return light; }, terms);
-            if constexpr (ClampableLight<L>) terms[0] = detail::at_most(terms[0], clamp.terms);
-            return finite_product(S(terms[0] * visibility), S(detail::intensity_of(light)));
+            LaneSpectra<S> transfer;
+            unshadowed_transfer<L>(
+                receiver, 1, [&](int) -> const L& { return light; }, transfer);
+            if constexpr (ClampableLight<L>) transfer[0] = detail::at_most(transfer[0], clamp.transfer);
+            return finite_product(S(transfer[0] * visibility), S(detail::intensity_of(light)));
         });
     };
     const auto flush = [&] {
@@ -94,7 +94,7 @@ Estimate<forest_spectrum<Lights>> exhaustive(const Lights& lights, const Receive
 /// The exact sum over all lights, once, with storage of its own. cost: it allocates.
 template <TreeOrForest Lights, class M, class Oracle = AlwaysVisible>
 Estimate<forest_spectrum<Lights>> exhaustive(const Lights& lights, const Receiver<M>& receiver,
-                                             const Oracle& oracle = {}, const ClampOptions& clamp = {}) {
+                                             const Oracle& oracle = {}, const ClampingOptions& clamp = {}) {
     EstimateScratch<forest_spectrum<Lights>> scratch;
     return exhaustive(as_forest(lights), receiver, oracle, scratch, clamp);
 }

@@ -11,7 +11,7 @@
 #include "../bound/policy.hpp"
 #include "../core/assertion.hpp"
 #include "../core/lanes.hpp"
-#include "../material/receiver.hpp"
+#include "../shading/receiver.hpp"
 #include "../tree/light_cluster.hpp"
 
 namespace lightcuts {

@@ -41,7 +41,7 @@ private:
 };
 
 /// Estimates the sum over all lights from `samples` of them, drawn in proportion to intensity and stratified.
-/// Unbiased. cost: `samples` terms and shadow rays, whatever the number of lights.
+/// Unbiased. cost: `samples` lights evaluated and shadow rays, whatever the number of lights.
 template <TreeOrForest Lights, class M, class Oracle>
 Estimate<forest_spectrum<Lights>> power_sampling(const Lights& lights, const PowerDistribution& distribution,
                                                  const Receiver<M>& receiver, const Oracle& oracle,

@@ -8,7 +8,7 @@ namespace lightcuts {
 
 /// Adaptive shadow testing [Ward 1994]: sorts the lights by their unshadowed contribution and tests them in falling
 /// order until those that are left could add no more than `threshold` of what was found, then adds the rest scaled
-/// by the visible share so far, which is grey. Not a bound: the rest may be darker or brighter than that.
+/// by the visible share so far, which is gray. Not a bound: the rest may be darker or brighter than that.
 /// pre: threshold >= 0. cost: linear in the lights, plus a sort, plus the rays tested, in blocks of 16.
 template <TreeOrForest Lights, class M, class Oracle>
 Estimate<forest_spectrum<Lights>> ward(const Lights& lights, const Receiver<M>& receiver, const Oracle& oracle,

@@ -5,8 +5,8 @@
 
 namespace lightcuts {
 
-/// A light whose contributions may be clamped, see ClampOptions: one of many samples of what they stand for together,
-/// each of which is mostly noise. The mark is `static constexpr bool clampable = true`, in the type or its
+/// A light whose contributions may be clamped, see ClampingOptions: one of many samples of what they stand for
+/// together, each of which is mostly noise. The mark is `static constexpr bool clampable = true`, in the type or its
 /// `light_traits`. Kinds without it cost nothing and are never clamped.
 template <class L>
 concept ClampableLight = Light<L> &&(

@@ -8,7 +8,7 @@
 
 namespace lightcuts {
 
-/// Where a light type that cannot be edited says what it is. Specialise with static functions of the names that
+/// Where a light type that cannot be edited says what it is. Specialize with static functions of the names that
 /// the concepts below ask for, taking the light first:
 /// ```
 /// template <> struct lightcuts::light_traits<TheirLight> {

@@ -14,7 +14,7 @@
 
 namespace lightcuts::detail {
 
-/// How far evaluate() may see a light from where it is: normalising the float difference of two positions changes each
+/// How far evaluate() may see a light from where it is: normalizing the float difference of two positions changes each
 /// coordinate by at most 3 relative float roundoffs, apart from a factor common to all. Also the angle, in radians,
 /// that this amounts to at most.
 inline constexpr double direction_error = 16.0 * 0x1p-24;

@@ -9,11 +9,11 @@
 
 namespace lightcuts::detail {
 
-/// For each box of a block a cone about the direction of its centre that holds the directions of all its points, as
+/// For each box of a block a cone about the direction of its center that holds the directions of all its points, as
 /// rounded to float. Wider than the smallest by 1e-5 radians at most, and by 5e-3 of the box's diagonal over its
 /// distance: so much a needle that points at the receiver loses in float, and more where it is nearer than its length.
 struct DirectionCaps {
-    alignas(32) Lanes centre[3];  ///< unit vectors
+    alignas(32) Lanes center[3];  ///< unit vectors
     alignas(32) Lanes cos;        ///< of the half-angle
     alignas(32) Lanes sin;
     alignas(32) Lanes narrow;  ///< 1: a cone of under about 88 degrees; 0: the rest means nothing
@@ -46,9 +46,9 @@ LIGHTCUTS_VECTORIZED inline void caps_of(const OffsetBlock& b, DirectionCaps& ca
         const float tan2 = select(is_narrow, larger(most, 0.0f), 0.0f);
         const float cosine = inverse_sqrt(1.0f + tan2), sine = square_root(tan2) * cosine * 1.000002f;
         constexpr float turn = 2e-6f;
-        caps.centre[0][i] = x;
-        caps.centre[1][i] = y;
-        caps.centre[2][i] = z;
+        caps.center[0][i] = x;
+        caps.center[1][i] = y;
+        caps.center[2][i] = z;
         caps.cos[i] = cosine - turn * sine;
         caps.sin[i] = sine + turn * cosine;
         caps.narrow[i] = select(in_range, select(is_narrow, 1.0f, 0.0f), 0.0f);
@@ -62,7 +62,7 @@ struct CapAngle {
 };
 
 [[gnu::always_inline]] inline CapAngle angle_from(const DirectionCaps& caps, int i, const glm::vec3& v) {
-    const float cx = caps.centre[0][i], cy = caps.centre[1][i], cz = caps.centre[2][i];
+    const float cx = caps.center[0][i], cy = caps.center[1][i], cz = caps.center[2][i];
     const float x = v.y * cz - v.z * cy, y = v.z * cx - v.x * cz, z = v.x * cy - v.y * cx;
     return {v.x * cx + v.y * cy + v.z * cz, square_root(x * x + y * y + z * z)};
 }

@@ -21,7 +21,7 @@ constexpr double squared_roughness(float alpha) {
     return a > 1e-6 ? a * a : 1e-12;
 }
 
-/// What a half-vector model needs to know of a light's direction o, with h the normalised sum of o and the view i.
+/// What a half-vector model needs to know of a light's direction o, with h the normalized sum of o and the view i.
 struct HalfVector {
     double cosine;  ///< n . o; if it is not positive, the rest means nothing
     double sin2;    ///< squared sine of the angle between n and h
@@ -154,7 +154,7 @@ public:
         alignas(32) Lanes to_mirror;
         clamped_max_cosines(glm::vec3(mirror_), caps, to_mirror);
         for (int i = 0; i < lane_count; ++i) {
-            const float cx = caps.centre[0][i], cy = caps.centre[1][i], cz = caps.centre[2][i];
+            const float cx = caps.center[0][i], cy = caps.center[1][i], cz = caps.center[2][i];
             // Stereographic projection from -i takes o to (t cos phi, t sin phi), and caps to discs; here times `base`.
             const float base = caps.cos[i] + (view.x * cx + view.y * cy + view.z * cz);
             const float x = x_axis.x * cx + x_axis.y * cy + x_axis.z * cz;
@@ -162,7 +162,7 @@ public:
             const float radius = caps.sin[i] + 1e-6f;
             const float m2 = x * x + y * y;
             const float m = square_root(m2);
-            // Turn the centre's azimuth towards n's by that of the tangent to the disc.
+            // Turn the center's azimuth towards n's by that of the tangent to the disc.
             const float outside2 = m2 * 0.999998f - radius * radius;
             const float tangent = square_root(larger(outside2, 0.0f));
             const float reach = select(x > 0.0f, radius - y, -1.0f);  // of the half-plane of azimuth 0

@@ -78,9 +78,9 @@ void evaluate_lanes(const M& m, const LaneVectors& to_lights, int count, LaneSpe
 /// Adds `m.evaluate` of the direction in lane i to values[i], for i < count. pre: 0 < count <= lane_count
 template <Material M>
 void add_lanes(const M& m, const LaneVectors& to_lights, int count, LaneSpectra<material_spectrum<M>>& values) {
-    LaneSpectra<material_spectrum<M>> terms;
-    evaluate_lanes(m, to_lights, count, terms);
-    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) values[i] = values[i] + terms[i];
+    LaneSpectra<material_spectrum<M>> transfer;
+    evaluate_lanes(m, to_lights, count, transfer);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) values[i] = values[i] + transfer[i];
 }
 
 }  // namespace lightcuts

@@ -26,8 +26,8 @@ inline constexpr DaylightSpectrum ozone_absorption = {
     0.040, 0.048, 0.063, 0.075, 0.085, 0.103, 0.120, 0.120, 0.115, 0.125, 0.120, 0.105, 0.090,
     0.079, 0.067, 0.057, 0.048, 0.036, 0.028, 0.023, 0.018, 0.014, 0.011, 0.010, 0.009};
 
-/// CIE 1931 colour matching functions [fits by Wyman, Sloan and Shirley 2013]. `wavelength`: nm
-inline glm::dvec3 colour_matching(double wavelength) {
+/// CIE 1931 color matching functions [fits by Wyman, Sloan and Shirley 2013]. `wavelength`: nm
+inline glm::dvec3 color_matching(double wavelength) {
     const auto lobe = [&](double height, double at, double below, double above) {
         const double x = (wavelength - at) / (wavelength < at ? below : above);
         return height * std::exp(-0.5 * x * x);
@@ -37,7 +37,7 @@ inline glm::dvec3 colour_matching(double wavelength) {
             lobe(1.217, 437.0, 11.8, 36.0) + lobe(0.681, 459.0, 26.0, 13.8)};
 }
 
-/// Linear Rec. 709 of a colour, with channels that the display cannot show (negative ones) at 0.
+/// Linear Rec. 709 of a color, with channels that the display cannot show (negative ones) at 0.
 inline glm::dvec3 rgb_of_xyz(const glm::dvec3& xyz) {
     const auto shown = [](double c) { return c > 0.0 ? c : 0.0; };
     return {shown(3.2404542 * xyz.x - 1.5371385 * xyz.y - 0.4985314 * xyz.z),
@@ -57,11 +57,11 @@ inline glm::dvec3 sun_luminance(double zenith_angle, double turbidity) {
     constexpr double lumens_per_watt = 683.0;  // at the eye's maximum
     glm::dvec3 xyz(0.0);
     for (std::size_t i = 0; i < sun_spectrum.size(); ++i) {
-        const double micrometres = 1e-3 * wavelength_of(i);
-        const double depth = 0.008735 * std::pow(micrometres, -4.08) + aerosols * std::pow(micrometres, -1.3) +
+        const double micrometers = 1e-3 * wavelength_of(i);
+        const double depth = 0.008735 * std::pow(micrometers, -4.08) + aerosols * std::pow(micrometers, -1.3) +
                              ozone_absorption[i] * ozone;
         const double radiance = 100.0 * sun_spectrum[i] * std::exp(-mass * depth);
-        xyz += colour_matching(wavelength_of(i)) * (radiance * 10.0 * lumens_per_watt);
+        xyz += color_matching(wavelength_of(i)) * (radiance * 10.0 * lumens_per_watt);
     }
     return rgb_of_xyz(xyz);
 }

@@ -28,9 +28,9 @@ concept PixelSource = std::invocable<const P&, std::uint32_t, std::uint32_t> &&
 
 /// A latitude-longitude map of radiance around the scene; a view of the user's pixels.
 ///
-/// +y is up. Longitude runs from +pi at the map's left edge to -pi at its right edge (edges, not pixels' centres),
+/// +y is up. Longitude runs from +pi at the map's left edge to -pi at its right edge (edges, not pixels' centers),
 /// latitude from pi/2 at the upper edge to -pi/2 at the lower one, and the direction towards a point of the map is
-/// (sin lon cos lat, sin lat, cos lon cos lat): the centre of the map looks along +z.
+/// (sin lon cos lat, sin lat, cos lon cos lat): the center of the map looks along +z.
 template <PixelSource Pixels>
 struct EnvironmentMap {
     using spectrum = std::remove_cvref_t<std::invoke_result_t<const Pixels&, std::uint32_t, std::uint32_t>>;

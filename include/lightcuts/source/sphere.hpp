@@ -21,7 +21,7 @@ namespace lightcuts {
 /// A sphere whose surface emits diffusely.
 template <Spectrum S = glm::vec3>
 struct SphereLight {
-    glm::vec3 centre{0.0f};
+    glm::vec3 center{0.0f};
     float radius = 1.0f;
     S intensity = black<S>();  ///< W/sr, seen from far away: pi x radius^2 x radiance
 };
@@ -45,7 +45,7 @@ struct SpherePointLight {
 /// lies in the sphere, so that nothing is in the way. pre: `light` lies in the sphere
 template <Spectrum S>
 glm::vec3 shadow_end(const SphereLight<S>& sphere, const glm::vec3& from, const glm::vec3& light) {
-    const glm::dvec3 start = glm::dvec3(from) - glm::dvec3(sphere.centre);
+    const glm::dvec3 start = glm::dvec3(from) - glm::dvec3(sphere.center);
     const glm::dvec3 way = glm::dvec3(light) - glm::dvec3(from);
     const double outside = glm::dot(start, start) - static_cast<double>(sphere.radius) * sphere.radius;
     if (!(outside > 0.0)) return from;
@@ -69,7 +69,7 @@ VisibilityQuery ending_at(const SphereLight<S>& sphere, VisibilityQuery query) {
 /// disc from wherever outside it is seen, so that it is equally bright everywhere. Their intensities are equal and add
 /// up to the sphere's, channel by channel.
 ///
-/// throws: invalid_input naming the first sphere whose radius is not positive, whose centre is not finite or whose
+/// throws: invalid_input naming the first sphere whose radius is not positive, whose center is not finite or whose
 /// intensity is negative or not finite
 template <Spectrum S, Sampler Sequence = ScrambledSobol>
 std::vector<SpherePointLight<S>> sphere_lights(std::span<const SphereLight<S>> spheres, std::size_t count,
@@ -81,7 +81,7 @@ std::vector<SpherePointLight<S>> sphere_lights(std::span<const SphereLight<S>> s
         const auto refuse = [&](const std::string& what) {
             LIGHTCUTS_THROW(invalid_input("spherical light " + std::to_string(i) + ": " + what));
         };
-        if (!is_finite(sphere.centre)) refuse("its centre is not finite");
+        if (!is_finite(sphere.center)) refuse("its center is not finite");
         if (!(sphere.radius > 0.0f && sphere.radius - sphere.radius == 0.0f)) {
             refuse("radius " + std::to_string(sphere.radius) + " is not positive and finite");
         }
@@ -100,7 +100,7 @@ std::vector<SpherePointLight<S>> sphere_lights(std::span<const SphereLight<S>> s
             const double across = std::sqrt(number(0)), turn = 2.0 * std::numbers::pi * number(1);
             const glm::dvec3 unit(across * std::cos(turn), across * std::sin(turn),
                                   std::sqrt(1.0 - number(0)) * std::sin(std::numbers::pi * (number(2) - 0.5)));
-            const glm::dvec3 point = glm::dvec3(sphere.centre) + static_cast<double>(sphere.radius) * unit;
+            const glm::dvec3 point = glm::dvec3(sphere.center) + static_cast<double>(sphere.radius) * unit;
             lights.push_back({glm::vec3(point), share, i});
         }
     }

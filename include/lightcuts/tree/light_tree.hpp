@@ -280,11 +280,11 @@ private:
         tree_ = builder(std::span<const Item>(items), execute);
         if (!tree_.is_binary())
             LIGHTCUTS_THROW(invalid_input("light tree: its builder made a tree that is not binary"));
-        if (!light_of.empty()) tree_ = relabelled(tree_, light_of, lights_.size());
+        if (!light_of.empty()) tree_ = relabeled(tree_, light_of, lights_.size());
     }
 
     /// The same tree with item i called `names[i]`, all of which are below `bound`.
-    static ClusterTree relabelled(const ClusterTree& tree, const std::vector<std::uint32_t>& names, std::size_t bound) {
+    static ClusterTree relabeled(const ClusterTree& tree, const std::vector<std::uint32_t>& names, std::size_t bound) {
         std::vector<std::uint32_t> words = tree.words();
         for (node_index n = 0; n < tree.size(); ++n) {
             if (tree.is_leaf(n)) words[n] = ClusterTree::leaf_word(names[tree.item(n)]);

@@ -21,7 +21,7 @@ concept VisibilityAnswer = std::convertible_to<A, float> || std::same_as<std::re
 }  // namespace detail
 
 /// Answers whether `light` reaches `receiver`: `bool`, the fraction in [0, 1] that gets through, or such a fraction for
-/// each channel, as a spectrum of the light's type: through coloured glass.
+/// each channel, as a spectrum of the light's type: through colored glass.
 /// It must be safe to call from several threads if the caller shades on several.
 template <class O, class R, class L>
 concept ScalarOracle = requires(const O& visible, const R& receiver, const L& light) {

@@ -13,7 +13,7 @@ namespace {
 
 using render::Picture;
 
-/// A white triangle, a black lamp behind it that shines on it, and a camera that sees both before a bright grey sky.
+/// A white triangle, a black lamp behind it that shines on it, and a camera that sees both before a bright gray sky.
 struct SkyScene {
     TemporaryFolder folder;
 

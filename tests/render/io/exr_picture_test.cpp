@@ -126,7 +126,7 @@ protected:
         }
         return folder.read("a.exr");
     }
-    /// Luminance and chroma of a picture that changes slowly; a saturated colour in its left half.
+    /// Luminance and chroma of a picture that changes slowly; a saturated color in its left half.
     std::string luminance_chroma(const Box2i& display, const Box2i& data, std::vector<glm::vec3>* colors = nullptr) {
         Imf::Header header(display, data);
         const int width = data.max.x - data.min.x + 1, height = data.max.y - data.min.y + 1;
@@ -147,7 +147,7 @@ protected:
         }
         return folder.read("yc.exr");
     }
-    /// A part without colour, and one with it.
+    /// A part without color, and one with it.
     std::string multi_part(const char* second_type = "R") {
         std::vector<Imf::Header> headers(2, Imf::Header(window(0, 0, 5, 4), window(0, 0, 5, 4)));
         std::vector<Planes> planes{{window(0, 0, 5, 4), {"Z"}}, {window(0, 0, 5, 4), {second_type, "G", "B"}}};
@@ -282,7 +282,7 @@ TEST_F(ExrPicture, OfLuminanceAndChromaIsColored) {
     }
 }
 
-TEST_F(ExrPicture, OfLuminanceAloneIsGrey) {
+TEST_F(ExrPicture, OfLuminanceAloneIsGray) {
     const Picture picture = read(written(Imf::Header(5, 3), {"Y", "A"}));
     EXPECT_EQ(picture.pixels[7], glm::vec3(value_at(2, 1, 0)));
     EXPECT_NE(picture.find("A"), nullptr);
@@ -343,7 +343,7 @@ TEST_F(ExrPicture, IsRefusedWithFewerSamplesThanPixels) {
     EXPECT_THAT(refused(sampled({}, {"Y"})), HasSubstr("channel Y is sampled at every 2 x 2 pixels"));
     EXPECT_THAT(refused(sampled({"Y", "RY", "BY"}, {})), HasSubstr("channel RY is sampled at every 1 x 1 pixels"));
     EXPECT_THAT(refused(sampled({"Y"}, {"RY"})), HasSubstr("no channel BY"));
-    // Others than colour do not matter.
+    // Others than color do not matter.
     EXPECT_TRUE(read(sampled({"R", "G", "B"}, {"Z"})).channels.empty());
 }
 

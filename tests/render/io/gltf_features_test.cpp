@@ -57,7 +57,7 @@ void expect_near(const glm::vec3& a, const glm::vec3& b, float tolerance = 1e-5f
         << a.x << " " << a.y << " " << a.z << " not " << b.x << " " << b.y << " " << b.z;
 }
 
-TEST(GltfVertexColours, MultiplyBaseColourAndAlpha) {
+TEST(GltfVertexColors, MultiplyBaseColorAndAlpha) {
     for (int kind = 0; kind < 4; ++kind) {
         SCOPED_TRACE(kind);
         GltfBuilder file;
@@ -99,7 +99,7 @@ TEST(GltfVertexColours, MultiplyBaseColourAndAlpha) {
     Json attributes = bright.square();
     attributes["COLOR_0"] = bright.add(std::vector<float>(12, 2.0f), "VEC3", 3);
     bright.add_node({{"mesh", bright.add_mesh(attributes)}});
-    EXPECT_TRUE(leaves_out(bright.load(), "vertex colours"));
+    EXPECT_TRUE(leaves_out(bright.load(), "vertex colors"));
 }
 
 /// A square of one bone; `joint` and `holder` are the nodes of the bone and of the mesh.

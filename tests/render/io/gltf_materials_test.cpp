@@ -89,7 +89,7 @@ TEST(GltfBrightImage, EmitsWhatItHolds) {
     const Json map = {{"index", 0}};
     const Json lamp = {{"emissiveTexture", map}, {"emissiveFactor", {1, 1, 1}}};
     EXPECT_EQ(emitted(lamp, none, {5, 3, 0.5f, 1}), glm::vec3(5, 3, 0.5f));
-    // OpenEXR's colours are the radiance, whatever its alpha says.
+    // OpenEXR's colors are the radiance, whatever its alpha says.
     EXPECT_EQ(emitted(lamp, none, {5, 3, 0.5f, 0.5f}), glm::vec3(5, 3, 0.5f));
     EXPECT_EQ(emitted(lamp, none, {5, 3, 0.5f, 0}), glm::vec3(5, 3, 0.5f));
     const Json unlit = {{"extensions", {{"KHR_materials_unlit", Json::object()}}}};

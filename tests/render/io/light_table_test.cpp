@@ -53,7 +53,7 @@ TEST_F(LightTable, ReadsAllKinds) {
     EXPECT_EQ(s.directional[0].direction, glm::vec3(0, -1, 0));
     EXPECT_EQ(s.directional[0].intensity, glm::vec3(2, 2, 2));
     ASSERT_EQ(s.spheres.size(), 1u);
-    EXPECT_EQ(s.spheres[0].centre, glm::vec3(1, 2, 3));
+    EXPECT_EQ(s.spheres[0].center, glm::vec3(1, 2, 3));
     EXPECT_EQ(s.spheres[0].radius, 0.5f);
     EXPECT_EQ(s.spheres[0].intensity, glm::vec3(4, 5, 6));
     EXPECT_EQ(s.dropped_lights, 1u);

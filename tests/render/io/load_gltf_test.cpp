@@ -163,13 +163,13 @@ TEST_F(GltfFile, PunctualLights) {
 TEST_F(GltfFile, PointLightsWithARadiusAreSpheres) {
     const Scene s = load(R"("extensionsUsed":["KHR_lights_punctual"],"extensions":{"KHR_lights_punctual":{"lights":[
         {"type":"point","intensity":8,"extras":{"radius":0.25}},
-        {"type":"point","intensity":2,"extras":{"radius":0,"colour":"red"}},
+        {"type":"point","intensity":2,"extras":{"radius":0,"color":"red"}},
         {"type":"spot","intensity":3,"spot":{"outerConeAngle":0.6},"extras":{"radius":0.25}}]}},
         "scenes":[{"nodes":[0,1,2,3]}],"nodes":[{"mesh":0},
         {"translation":[1,2,3],"scale":[5,5,5],"extensions":{"KHR_lights_punctual":{"light":0}}},
         {"extensions":{"KHR_lights_punctual":{"light":1}}},{"extensions":{"KHR_lights_punctual":{"light":2}}}])");
     ASSERT_EQ(s.spheres.size(), 1u);
-    expect_near(s.spheres[0].centre, {1, 2, 3});
+    expect_near(s.spheres[0].center, {1, 2, 3});
     EXPECT_EQ(s.spheres[0].radius, 0.25f);
     expect_near(s.spheres[0].intensity, {8, 8, 8});
     EXPECT_EQ(s.omni.size(), 1u);
@@ -202,7 +202,7 @@ TEST_F(GltfFile, Materials) {
     EXPECT_EQ(m.alpha, Material::Alpha::mask);
     EXPECT_FLOAT_EQ(m.alpha_cutoff, 0.3f);
 
-    // The same image once as sRGB colour, once as plain numbers.
+    // The same image once as sRGB color, once as plain numbers.
     ASSERT_EQ(s.textures.size(), 2u);
     const auto& color = s.textures[static_cast<std::size_t>(m.base_color_texture.texture)];
     const auto& data = s.textures[static_cast<std::size_t>(m.metallic_roughness_texture.texture)];
@@ -247,7 +247,7 @@ TEST_F(GltfFile, DiffuseTransmission) {
     };
     EXPECT_THAT(refused(R"("diffuseTransmissionFactor":1.5)"), HasSubstr("'leaf': diffuse transmission"));
     EXPECT_THAT(refused(R"("diffuseTransmissionFactor":1,"diffuseTransmissionColorFactor":[-1,1,1])"),
-                HasSubstr("'leaf': the diffuse transmission colour"));
+                HasSubstr("'leaf': the diffuse transmission color"));
     EXPECT_THAT(refused(R"("diffuseTransmissionFactor":1,"diffuseTransmissionTexture":{"index":7})"),
                 HasSubstr("texture 7"));
     const std::pair<const char*, const char*> malformed[] = {
@@ -293,7 +293,7 @@ TEST_F(GltfFile, TextureTransforms) {
     s = read(R"(,"extensions":{"KHR_texture_transform":{"scale":[3,-1]}})");
     expect_at(s.materials[0].emission_texture.uv, {0.5f, 0.25f}, {1.5f, -0.25f});
 
-    // Its texCoord overrides the texture's own, which would be another one than the base colour's.
+    // Its texCoord overrides the texture's own, which would be another one than the base color's.
     s = read(R"(,"texCoord":1,"extensions":{"KHR_texture_transform":{"texCoord":0}})");
     ASSERT_EQ(s.uv_sets.size(), 1u);
     EXPECT_EQ(s.uv_sets[0].size(), 3u);

@@ -104,7 +104,7 @@ TEST_F(ObjFile, MapsOfOpacity) {
     EXPECT_EQ(texture(leaf.alpha_texture.texture).texels[1].a, 1.0f);
     EXPECT_EQ(texture(leaf.base_color_texture.texture).texels[0], glm::vec4(1, 0, 0, 1));
 
-    // The same file as colour and as mask is two textures.
+    // The same file as color and as mask is two textures.
     EXPECT_EQ(mask.alpha, Material::Alpha::blend);
     EXPECT_EQ(mask.alpha_texture.texture, leaf.alpha_texture.texture);
     EXPECT_EQ(texture(mask.base_color_texture.texture).texels[0], glm::vec4(0, 0, 0, 1));
@@ -249,7 +249,7 @@ TEST_F(ObjFile, LibrariesAreFoundAsTheyAreWritten) {
     EXPECT_THAT(refused("mtllib\n" + body), StartsWith("scene.obj:1: 'mtllib' names no file"));
 }
 
-TEST_F(ObjFile, WithoutALibraryMaterialsAreGreyAndThatIsSaid) {
+TEST_F(ObjFile, WithoutALibraryMaterialsAreGrayAndThatIsSaid) {
     const Scene s = load(halves("usemtl red", "usemtl green"));
     ASSERT_EQ(s.materials.size(), 1u);
     EXPECT_EQ(s.materials[0].base_color, glm::vec3(0.8f));
@@ -334,19 +334,19 @@ TEST_F(ObjFile, RefusesWhatItDoesNotAllow) {
     EXPECT_THAT(refused("f 1 2 \x1b[31m\n"), StartsWith("scene.obj:1: '")) << "in one line that controls no terminal";
 }
 
-TEST_F(ObjFile, VertexColoursTintTheMaterial) {
+TEST_F(ObjFile, VertexColorsTintTheMaterial) {
     const std::string text = "v 0 0 0 0.8 0.1 0.1\nv 1 0 0 0.8 0.1 0.1\nv 1 1 0 0.8 0.1 0.1\nv 0 1 0\n";
     Scene s = load_scene(folder.write("scene.obj", text + "f 1 2 3\nf 1 3 4\n"));
     ASSERT_EQ(s.colors.size(), 4u);
     EXPECT_EQ(s.colors[s.triangles[0].y], glm::vec4(0.8f, 0.1f, 0.1f, 1.0f));
     EXPECT_EQ(s.colors[s.triangles[1].z], glm::vec4(1.0f)) << "white where there is none";
-    EXPECT_EQ(s.materials[0].base_color, glm::vec3(1.0f)) << "the colour is the albedo";
+    EXPECT_EQ(s.materials[0].base_color, glm::vec3(1.0f)) << "the color is the albedo";
     s = load_scene(folder.write("scene.obj", "v 0 0 0 255 0 51\nv 1 0 0 0 0 0\nv 0 1 0 0 0 0\nf 1 2 3\n"));
     EXPECT_EQ(s.colors[0], glm::vec4(1.0f, 0.0f, 0.2f, 1.0f)) << "bytes";
     s = load_scene(folder.write("scene.obj", "v 0 0 0 1.5 0 0.5\nv 1 0 0 0 0 0\nv 0 1 0 0 0 0\nf 1 2 3\n"));
     EXPECT_EQ(s.colors[0], glm::vec4(1.0f, 0.0f, 0.5f, 1.0f));
     ASSERT_EQ(s.left_out.size(), 1u);
-    EXPECT_THAT(s.left_out[0].what, HasSubstr("vertex colours"));
+    EXPECT_THAT(s.left_out[0].what, HasSubstr("vertex colors"));
     EXPECT_TRUE(load(std::string(square) + "f 1 2 3\n").colors.empty());
 }
 
@@ -377,14 +377,14 @@ TEST_F(MtlFile, AbsentFactorsMultiplyByOne) {
     EXPECT_EQ(read("MAP_KD t.bmp\nkd 0.5 0.5 0.5").base_color, glm::vec3(0.5f));
 }
 
-TEST_F(MtlFile, ColoursMayBeOneNumberOrCie) {
+TEST_F(MtlFile, ColorsMayBeOneNumberOrCie) {
     EXPECT_EQ(read("Kd 0.5").base_color, glm::vec3(0.5f));
     EXPECT_EQ(read("Ke 3").emission, glm::vec3(3.0f));
     const glm::vec3 white = read("Kd xyz 0.475235 0.5 0.544415").base_color;
     EXPECT_NEAR(glm::length(white - glm::vec3(0.5f)), 0.0f, 1e-3f);
     EXPECT_THAT(refused_material("Kd 0.5 0.5"), StartsWith("m.mtl:2: 'Kd' needs 3 numbers"));
     EXPECT_THAT(refused_material("Kd"), StartsWith("m.mtl:2: "));
-    EXPECT_THAT(refused_material("Kd spectral grey.rfl 1"), HasSubstr("spectral"));
+    EXPECT_THAT(refused_material("Kd spectral gray.rfl 1"), HasSubstr("spectral"));
     EXPECT_THAT(refused_material("Ns -1"), StartsWith("m.mtl:2: '-1'"));
     EXPECT_THAT(refused_material("map_Kd"), StartsWith("m.mtl:2: 'map_Kd' names no file"));
     EXPECT_THAT(refused_material("map_Kd -o x t.bmp"), StartsWith("m.mtl:2: 'x'"));

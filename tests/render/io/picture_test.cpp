@@ -60,7 +60,7 @@ TEST(Picture, KeepsInfinityInOpenExr) {
     EXPECT_EQ(render::read_exr(folder / "a.exr").pixels, written.pixels);
 }
 
-TEST(Picture, ReadsHalfGreyAndAShiftedWindow) {
+TEST(Picture, ReadsHalfGrayAndAShiftedWindow) {
     const TemporaryFolder folder;
     const Imath::Box2i window({5, -3}, {6, -2});
     Imf::Header header(Imath::Box2i({0, 0}, {9, 9}), window);
@@ -69,12 +69,12 @@ TEST(Picture, ReadsHalfGreyAndAShiftedWindow) {
     Imf::FrameBuffer buffer;
     buffer.insert("Y", Imf::Slice::Make(Imf::HALF, values, window));
     {
-        Imf::OutputFile file((folder / "grey.exr").c_str(), header);
+        Imf::OutputFile file((folder / "gray.exr").c_str(), header);
         file.setFrameBuffer(buffer);
         file.writePixels(2);
     }
 
-    const Picture read = render::read_exr(folder / "grey.exr");
+    const Picture read = render::read_exr(folder / "gray.exr");
     ASSERT_EQ(read.size(), 4u);
     for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(read.pixels[i], glm::vec3(values[i]));
 }
@@ -184,7 +184,7 @@ TEST(ErrorFigures, StepsAreThoseThatTheReferenceDoesNotHave) {
     picture = reference;
     for (std::size_t i = 4; i < picture.size(); ++i) picture.pixels[i] += 0.25f;
     EXPECT_NEAR(render::compare(picture, reference).max_step, 0.25, 1e-6);
-    // The last pixel of a row and the first of the next are no neighbours.
+    // The last pixel of a row and the first of the next are no neighbors.
     std::fill(reference.pixels.begin(), reference.pixels.end(), glm::vec3(1.0f));
     picture = reference;
     picture.pixels[4] += 3.0f;

@@ -167,7 +167,7 @@ TEST(Polygon, ConvexOutlinesBecomeFans) {
 }
 
 TEST(Polygon, CornersOnStraightEdgesAreCornersOfTriangles) {
-    // Where a neighbour ends, so that rays do not slip through between them.
+    // Where a neighbor ends, so that rays do not slip through between them.
     expect_covers_both_ways({{0, 0}, {1, 0}, {2, 0}, {2, 2}, {1, 2}, {0, 2}, {0, 1}}, "edges with corners");
     for (std::size_t start = 0; start < 7; ++start) {
         std::vector<dvec2> outline{{0, 0}, {1, 0}, {2, 0}, {2, 2}, {1, 2}, {0, 2}, {0, 1}};

@@ -38,7 +38,7 @@ glm::vec3 radiance_of(const Rgbe& pixel) {
     return {value(0), value(1), value(2)};
 }
 
-/// Pixels of random mantissas and exponents, equal neighbours among them in runs of all lengths.
+/// Pixels of random mantissas and exponents, equal neighbors among them in runs of all lengths.
 std::vector<Scanline> random_lines(std::size_t length, std::size_t count, unsigned seed) {
     std::mt19937 random(seed);
     const auto byte = [&](unsigned from, unsigned to) {
@@ -78,7 +78,7 @@ std::string size_line(const std::vector<Scanline>& rows) {
     return "-Y " + std::to_string(rows.size()) + " +X " + std::to_string(rows[0].size());
 }
 
-/// A map of two colours as programs write it, each row encoded in turn differently.
+/// A map of two colors as programs write it, each row encoded in turn differently.
 std::string small_file(const std::string& lines = rgbe_format) {
     const auto rows = random_lines(9, 4, 5);
     return radiance_file(lines, size_line(rows),
@@ -117,15 +117,15 @@ TEST(RadiancePicture, MayMixEncodingsOfScanlines) {
 }
 
 TEST(RadiancePicture, HoldsRunsOfMoreThanAByteCounts) {
-    const Rgbe grey{128, 128, 128, 129}, red{200, 0, 0, 130};
-    Scanline line(70000, grey);
+    const Rgbe gray{128, 128, 128, 129}, red{200, 0, 0, 130};
+    Scanline line(70000, gray);
     line[69999] = red;
     const std::string bytes = old_encoded(line);
     EXPECT_EQ(bytes.size(), 5u * 4u);
     expect_rows(read(radiance_file(rgbe_format, size_line({line}), bytes)), {line}, "long");
     // A count of zero is a place that is not needed.
-    const std::string zero = bytes_of(grey) + bytes_of({1, 1, 1, 0}) + bytes_of({1, 1, 1, 1});
-    expect_rows(read(radiance_file(rgbe_format, "-Y 1 +X 257", zero)), {Scanline(257, grey)}, "zero");
+    const std::string zero = bytes_of(gray) + bytes_of({1, 1, 1, 0}) + bytes_of({1, 1, 1, 1});
+    expect_rows(read(radiance_file(rgbe_format, "-Y 1 +X 257", zero)), {Scanline(257, gray)}, "zero");
 }
 
 TEST(RadiancePicture, IsNotEncodedAnewBelow8AndAbove32767Pixels) {
@@ -269,7 +269,7 @@ TEST(RadiancePicture, OfXyzHasItsColorCorrectionUndoneInRgb) {
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(back[c], glm::vec3(2, 1, 1)[c], 0.06f);
 }
 
-TEST(RadiancePicture, OfXyzWithoutRgbIsMovedTowardsGrey) {
+TEST(RadiancePicture, OfXyzWithoutRgbIsMovedTowardsGray) {
     // No lamp is greener than the line of the spectrum; the luminance is kept.
     const Picture green = read(radiance_file(
         "FORMAT=32-bit_rle_xyze\nEXPOSURE=179\nEXPOSURE=.00558659217877095\nEXPOSURE=.00558659217877095\n", "-Y 1 +X 1",
@@ -301,7 +301,7 @@ TEST(RadiancePicture, OfOtherPrimariesBecomesRec709) {
                              -0.1246f * 1.0f + 1.1329f * 0.5f - 0.0083f * 0.25f,
                              -0.0182f * 1.0f - 0.1006f * 0.5f + 1.1187f * 0.25f);
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(converted[c], expected[c], 2e-4f);
-    // What Rec. 709 does not hold is moved towards grey.
+    // What Rec. 709 does not hold is moved towards gray.
     const glm::vec3 red = first(rec2020, {1.0, 0.0, 0.0});
     EXPECT_GE(std::min({red.r, red.g, red.b}), 0.0f);
     EXPECT_NEAR(0.2126f * red.r + 0.7152f * red.g + 0.0722f * red.b, 0.2627f, 1e-3f);

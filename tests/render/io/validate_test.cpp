@@ -131,10 +131,10 @@ TEST(Texture, SrgbDecoding) {
     EXPECT_NEAR(render::srgb_to_linear(0.5f), 0.21404f, 1e-5f);
     EXPECT_NEAR(render::srgb_to_linear(0.04f), 0.04f / 12.92f, 1e-7f);
     const std::array<std::uint8_t, 4> pixels{128, 64, 255, 0};
-    const render::Texture grey = render::make_texture("t", {2, 1, 2, 8, pixels.data(), pixels.size()}, true);
-    EXPECT_NEAR(grey.texels[0].b, 0.2159f, 1e-4f);
-    EXPECT_NEAR(grey.texels[0].a, 64.0f / 255.0f, 1e-6f);  // alpha is never encoded
-    EXPECT_EQ(grey.texels[1].a, 0.0f);
+    const render::Texture gray = render::make_texture("t", {2, 1, 2, 8, pixels.data(), pixels.size()}, true);
+    EXPECT_NEAR(gray.texels[0].b, 0.2159f, 1e-4f);
+    EXPECT_NEAR(gray.texels[0].a, 64.0f / 255.0f, 1e-6f);  // alpha is never encoded
+    EXPECT_EQ(gray.texels[1].a, 0.0f);
     EXPECT_THAT(refusal([&] {
                     render::make_texture("t", {2, 2, 4, 8, pixels.data(), pixels.size()}, true);
                 }),

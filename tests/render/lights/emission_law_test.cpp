@@ -20,7 +20,7 @@ using render::Scene;
 using render::Shade;
 using render::Texture;
 
-/// A texture of 64 x 64 texels: `f(u, v)` at their centres.
+/// A texture of 64 x 64 texels: `f(u, v)` at their centers.
 Texture texture_of(const std::function<glm::vec4(float, float)>& f) {
     Texture t;
     t.width = t.height = 64;
@@ -33,7 +33,7 @@ Texture texture_of(const std::function<glm::vec4(float, float)>& f) {
     return t;
 }
 
-/// An emitter that faces down, 2 x 2 around (0, 2, 0), with uvs and vertex colours. Textures: 0 is a picture, 1 a
+/// An emitter that faces down, 2 x 2 around (0, 2, 0), with uvs and vertex colors. Textures: 0 is a picture, 1 a
 /// grating in alpha, 2 a ramp in alpha.
 Scene panel() {
     Scene s;

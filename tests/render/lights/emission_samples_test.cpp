@@ -125,7 +125,7 @@ TEST(EmissionSamples, KeepTheirPowerUnderTransforms) {
                                               {{0.1f, 0.2f}, {1, 1}, {-1, 1}}}) {
             Scene s = panel(map, whole);
             s.materials[0].emission_texture.uv = uv;
-            // Colours apart: each channel is that of its own spots.
+            // Colors apart: each channel is that of its own spots.
             const dvec3 exact = area * dvec3(s.materials[0].emission) * mean;
             const dvec3 power = power_of_lights(s, 64);
             for (int c = 0; c < 3; ++c) EXPECT_NEAR(power[c], exact[c], 0.01 * exact[c]);

@@ -210,7 +210,7 @@ TEST(EmitterLights, CurvedSurfacesGetEqualShares) {
 }
 
 TEST(EmitterLights, TextureDistributesThem) {
-    // The left half is three times as bright as the right one, and of another colour.
+    // The left half is three times as bright as the right one, and of another color.
     Scene s = empty_scene();
     s.materials[0].emission = glm::vec3(1.0f);
     s.materials[0].emission_texture.texture = 0;

@@ -19,7 +19,7 @@ protected:
         Programs::SetUp();
         folder.write("sphere.csv", "kind,x,y,z,dx,dy,dz,r,g,b\nsphere,0,3,0,0.5,,,9,6,3\n");
         folder.write("omni.csv", "kind,x,y,z,dx,dy,dz,r,g,b\nomni,0,3,0,,,,9,6,3\n");
-        folder.write("plate.mtl", "newmtl grey\nKd 0.5 0.4 0.3\nnewmtl glass\nKd 1 1 1\nillum 7\nNi 1.5\n");
+        folder.write("plate.mtl", "newmtl gray\nKd 0.5 0.4 0.3\nnewmtl glass\nKd 1 1 1\nillum 7\nNi 1.5\n");
     }
     /// A floor, with a plate of 2 x `side` across at `height` above it, and glass far away if wanted.
     std::string with_plate(double height, double side, bool glass) {
@@ -29,7 +29,7 @@ protected:
         };
         folder.write("plate.obj", "mtllib plate.mtl\nv -4 0 -4\nv 4 0 -4\nv 4 0 4\nv -4 0 4\n" + corner(-1, -1) +
                                       corner(1, -1) + corner(1, 1) + corner(-1, 1) + "v 90 0 0\nv 91 0 0\nv 91 1 0\n" +
-                                      "usemtl grey\nf 4 3 2 1\nf 8 7 6 5\nusemtl " + (glass ? "glass" : "grey") +
+                                      "usemtl gray\nf 4 3 2 1\nf 8 7 6 5\nusemtl " + (glass ? "glass" : "gray") +
                                       "\nf 9 10 11\n");
         return "plate.obj ";
     }
@@ -48,14 +48,14 @@ protected:
     }
 };
 
-TEST_F(SphericalLights, ShineAsTheirCentreFromFarAway) {
-    // The irradiance of a sphere that lies above the horizon is that of its centre, exactly.
+TEST_F(SphericalLights, ShineAsTheirCenterFromFarAway) {
+    // The irradiance of a sphere that lies above the horizon is that of its center, exactly.
     const Picture sphere = rendered("floor.obj --method exhaustive --area-points 1000 --lights sphere.csv");
     EXPECT_EQ(report("render.json").at("lights").at("sphere"), 1000);
     EXPECT_EQ(report("render.json").at("lights").at("omni"), 0);
-    const Picture centre = rendered("floor.obj --method exhaustive --lights omni.csv");
-    EXPECT_LT(difference(sphere, centre), 0.002);
-    EXPECT_GT(difference(sphere, centre), 0.0);
+    const Picture center = rendered("floor.obj --method exhaustive --lights omni.csv");
+    EXPECT_LT(difference(sphere, center), 0.002);
+    EXPECT_GT(difference(sphere, center), 0.0);
 }
 
 TEST_F(SphericalLights, AreNotShadowedByWhatTheyContain) {
@@ -83,7 +83,7 @@ TEST_F(SphericalLights, LightWhatTheyContain) {
 }
 
 TEST_F(SphericalLights, MakeSoftShadows) {
-    // The plate's edge casts a hard shadow from the centre; from the sphere half of the penumbra lies within it.
+    // The plate's edge casts a hard shadow from the center; from the sphere half of the penumbra lies within it.
     const std::string scene = with_plate(1.5, 1.0, false) + "--method exhaustive ";
     const Picture soft = rendered(scene + "--lights sphere.csv");
     const Picture hard = rendered(scene + "--lights omni.csv");

@@ -57,7 +57,7 @@ Scene box() {
     return scene;
 }
 
-/// Rings of `around` corners, joined to their neighbours: the last ring to the first if `closed`, and else both to a
+/// Rings of `around` corners, joined to their neighbors: the last ring to the first if `closed`, and else both to a
 /// pole.
 Scene rings(std::vector<glm::vec3> positions, std::uint32_t around, bool closed) {
     Scene scene;

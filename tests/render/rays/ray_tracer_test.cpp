@@ -93,7 +93,7 @@ TEST_F(InstructionSet, GivesItsPictureEachTime) {
     }
 }
 
-/// Where a pixel's centre or a shadow ray meets an edge to within rounding, sets may differ in which surface they see;
+/// Where a pixel's center or a shadow ray meets an edge to within rounding, sets may differ in which surface they see;
 /// these scenes have no such place.
 TEST_F(InstructionSet, ChangesAPictureByTheLastDigitsOnly) {
     for (const std::string& scene : {"room.obj" + view, std::string("builtin:surfaces?lights=200")}) {

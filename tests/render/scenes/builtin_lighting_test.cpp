@@ -201,13 +201,13 @@ TEST_F(BuiltinPictures, SayHowTheyAreLit) {
     ASSERT_EQ(render("builtin:colonnade --quiet --size 2x2 --sky-lights 50 --indirect 0").status, 0);
     EXPECT_TRUE(report("render.json").at("options").at("sun_sky").is_array());
     EXPECT_EQ(report("render.json").at("lights").at("sky"), 50);
-    write_exr(folder / "grey.exr", [] {
+    write_exr(folder / "gray.exr", [] {
         render::Picture map(8, 4);
         map.pixels.assign(map.size(), glm::vec3(0.5f));
         return map;
     }());
     ASSERT_EQ(
-        render("builtin:tableau --quiet --size 2x2 --env grey.exr --env-lights 9 --eye 0,2,0 --target 0,9,0.1").status,
+        render("builtin:tableau --quiet --size 2x2 --env gray.exr --env-lights 9 --eye 0,2,0 --target 0,9,0.1").status,
         0);
     EXPECT_EQ(report("render.json").at("lights").at("environment"), 9);
     for (const glm::vec3& pixel : render::read_exr(folder / "render.exr").pixels) EXPECT_EQ(pixel, glm::vec3(0.5f));

@@ -62,7 +62,7 @@ TEST_F(TestCard, IsLitByEveryKindOfLight) {
     EXPECT_EQ(lights.at("sphere"), 64);
     EXPECT_EQ(lights.at("directional"), 2);
     const render::Picture card = render::read_exr(folder / "card.exr");
-    // The pools differ in colour, and are brighter than between them.
+    // The pools differ in color, and are brighter than between them.
     const float y = -render::test_card_pitch * render::test_card_rows - 0.6f;
     const glm::dvec3 between = mean_over(card, 1.95f, 2.35f, y + 0.3f, y + 0.7f);
     const glm::dvec3 point = mean_over(card, 0.85f, 1.25f, y + 0.3f, y + 0.7f);

@@ -284,7 +284,7 @@ TEST(Visibility, HonoursTheMaskOfATexture) {
     EXPECT_TRUE(rays.nearest({0.5f, 0.1f, 1}, {0, 0, -1}).has_value());
 }
 
-TEST(Visibility, HonoursAMaskApartFromTheColour) {
+TEST(Visibility, HonorsAMaskApartFromTheColor) {
     Stack stack;
     Material& leaf = stack.add(0.0f);
     leaf.alpha = Material::Alpha::blend;

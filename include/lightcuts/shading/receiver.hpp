@@ -8,7 +8,7 @@
 
 #include "../core/assertion.hpp"
 #include "../core/vector.hpp"
-#include "material.hpp"
+#include "../material/material.hpp"
 
 namespace lightcuts {
 

@@ -3,7 +3,7 @@
 #include <concepts>
 
 #include "../light/incidence.hpp"
-#include "../material/receiver.hpp"
+#include "receiver.hpp"
 
 namespace lightcuts::detail {
 

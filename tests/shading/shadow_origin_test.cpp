@@ -92,8 +92,8 @@ TEST(Leaf, UnderLightsOnBothSidesIsTheExhaustiveSumAtRatioZero) {
         const V exact = exhaustive(lights, top, scalar, scratch).radiance + from_behind;
         behind += channel_sum(from_behind);
         all += channel_sum(exact);
-        const LightcutOptions every{.error_ratio = 0.0f, .max_cut = 0, .few_lights = 0};
-        const CutResult<V> cut = shade(lights, leaf, batched, {.max_cut = 0, .few_lights = 0});
+        const LightcutOptions every{.error_ratio = 0.0f, .max_cut = 0, .exhaustive_below = 0};
+        const CutResult<V> cut = shade(lights, leaf, batched, {.max_cut = 0, .exhaustive_below = 0});
         for (int k = 0; k < 3; ++k) {
             const float near = 2e-5f * exact[k];
             EXPECT_NEAR(exhaustive(lights, leaf, scalar, scratch).radiance[k], exact[k], near);
@@ -140,7 +140,7 @@ TEST(Leaf, BoundsOfOraclesAreAskedFromBothSides) {
     static_assert(BoundedOracle<OwnPlane, Receiver<Leaf>, OmniLight<>>);
     for (const auto& leaf : scene.leaves) {
         const V exact = exhaustive(tree, leaf, AlwaysVisible{}).radiance;
-        const CutResult<V> cut = shade(tree, leaf, OwnPlane{}, {.max_cut = 0, .few_lights = 0});
+        const CutResult<V> cut = shade(tree, leaf, OwnPlane{}, {.max_cut = 0, .exhaustive_below = 0});
         for (int k = 0; k < 3; ++k) {
             EXPECT_LE(std::fabs(cut.radiance[k] - exact[k]), cut.error_bound[k] + 1e-5f * exact[k]);
             EXPECT_NEAR(cut.radiance[k], exact[k], 0.1f * exact[k]);
