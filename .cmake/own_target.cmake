@@ -24,6 +24,8 @@ function(lightcuts_own_target target)
   target_compile_options(${target} PRIVATE ${lightcuts_warnings})
   if(NOT MSVC)
     target_compile_options(${target} PRIVATE -ffp-contract=${LIGHTCUTS_FP_CONTRACT})
+    # Loops over lanes also for AVX2: see core/vectorized.hpp.
+    target_compile_definitions(${target} PRIVATE LIGHTCUTS_SEVERAL_TARGETS)
   endif()
 endfunction()
 

@@ -42,7 +42,7 @@ struct Cartoon {
     lightcuts::CosineLobe<glm::vec3> cosine_lobe() const { return {normal, albedo * 0.31830988f}; }
 };
 
-// Velvet, bright at the rim: nobody has worked out how bright it gets over a box of lights.
+// Velvet, bright at the rim: how bright it gets over a box of lights is unknown.
 struct Velvet {
     glm::vec3 normal;
     glm::vec3 to_eye;

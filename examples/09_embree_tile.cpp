@@ -16,7 +16,7 @@
 namespace {
 
 constexpr std::size_t size = 128;     // texels along an edge of the map
-constexpr std::size_t tile_edge = 8;  // 64 receivers at a time are enough for long streams
+constexpr std::size_t tile_edge = 4;  // 16 receivers at a time are enough for long streams
 constexpr float edge = 16.0f;         // of the floor, in meters
 
 using Receiver = lightcuts::Receiver<lightcuts::Lambert<>>;

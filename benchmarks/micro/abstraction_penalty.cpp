@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstring>
 #include <limits>
+#include <span>
 #include <stdexcept>
 #include <string>
 
@@ -50,44 +51,35 @@ class HandWritten {
 public:
     HandWritten(const Tree& tree, const lightcuts::LightcutOptions& options)
         : lights_(tree.lights().data()), words_(tree.topology().words().data()), clusters_(tree.clusters().data()),
-          representatives_(tree.representatives().of(0).data()), root_(tree.topology().root()),
+          representatives_(tree.representatives().of(0).data()), start_(tree.start()),
           threshold_(static_cast<double>(options.error_ratio)), round_fraction_(options.round_fraction) {}
 
     Result shade(const Point& point) {
         point_ = &point;
         albedo_ = point.material.cosine_lobe().scale;
         nodes_.clear();
-        active_.clear();
-        resting_.clear();
-        for (int c = 0; c < 3; ++c) {
-            total_[c] = 0.0;
-            weight_[c] = least_[c] = darkest;
-        }
-        for (double& l : largest_) l = 0.0;
-        queries_ = 0;
+        keys_.clear();
+        holes_.clear();
         absorbed_ = 0;
-        constexpr float infinity = std::numeric_limits<float>::infinity();
-        add_node(root_, glm::vec3(infinity)).queried = true;
-        nodes_.back().representative = representatives_[root_];
+        queries_ = 0;
+        for (int c = 0; c < 3; ++c) {
+            total_[c] = largest_[c] = 0.0;
+            weight_[c] = base_[c] = darkest;
+        }
+        for (const std::uint32_t n : start_) add_with_representative(n, glm::vec3(infinity));
         do {
-            set_terms();
+            set_transfer();
             absorb();
-            weigh();
-            if (growth() * rest_below > 1.0) wake();
-            const std::size_t most = nodes_.size() + 2 * active_.size();
-            if (most > nodes_.capacity()) nodes_.reserve(2 * most);
-            select();
-            for (const Candidate& c : chosen_) split(*c.node);
-            for (std::size_t i = chosen_.size(); i-- > 0;) {
-                active_[chosen_[i].at] = active_.back();
-                active_.pop_back();
-            }
+            update_weights();
+            choose();
+            split_chosen();
         } while (!chosen_.empty());
         return result();
     }
 
 private:
-    static constexpr double rest_below = 0.9, darkest = 1e150;
+    static constexpr double darkest = 1e150, most_spread = 1.02, final_node = -1.0, hole = -2.0;
+    static constexpr float infinity = std::numeric_limits<float>::infinity();
     static constexpr int lanes = lightcuts::lane_count;
 
     struct Node {
@@ -96,7 +88,6 @@ private:
         bool bounded = false, queried = false;
     };
     struct Candidate {
-        Node* node;
         std::uint32_t at;
         double priority;
     };
@@ -126,33 +117,46 @@ private:
         return node;
     }
 
+    void add_with_representative(std::uint32_t n, const glm::vec3& unit_bound) {
+        Node& node = add_node(n, unit_bound);
+        node.representative = representatives_[n];
+        node.queried = true;
+    }
+
+    void split_chosen() {
+        nodes_.reserve(nodes_.size() + 2 * chosen_.size());
+        for (const Candidate& c : chosen_) {
+            split(nodes_[c.at]);
+            keys_[c.at] = hole;
+            holes_.push_back(c.at);
+        }
+    }
+
     void split(const Node& parent) {
         add(parent.estimate, -1.0);
         const std::uint32_t right = parent.node - 1;
         const std::uint32_t left = (is_leaf(right) ? right : words_[right]) - 1;
         const bool in_left = parent.representative <= left;
-        Node& heir = add_node(in_left ? left : right, parent.unit_bound);
-        heir.representative = parent.representative;
-        heir.transfer = parent.transfer;
-        heir.estimate = finite(heir.transfer * clusters_[heir.node].intensity);
-        Node& other = add_node(in_left ? right : left, parent.unit_bound);
-        other.representative = representatives_[other.node];
-        other.queried = true;
+        Node& inheriting = add_node(in_left ? left : right, parent.unit_bound);
+        inheriting.representative = parent.representative;
+        inheriting.transfer = parent.transfer;
+        inheriting.estimate = finite(inheriting.transfer * clusters_[inheriting.node].intensity);
+        add_with_representative(in_left ? right : left, parent.unit_bound);
     }
 
     /// Shades new nodes by the representatives they do not share with a parent, but for the shadow rays.
-    void set_terms() {
+    void set_transfer() {
         Node* members[lanes];
         for (std::size_t next = absorbed_; next < nodes_.size();) {
             int count = 0;
             for (; next < nodes_.size() && count < lanes; ++next) {
                 if (nodes_[next].queried) members[count++] = &nodes_[next];
             }
-            if (count > 0) set_terms(members, count);
+            if (count > 0) set_transfer(members, count);
         }
     }
 
-    void set_terms(Node* const* members, int count) {
+    void set_transfer(Node* const* members, int count) {
         const glm::vec3 at = point_->position, n = point_->material.normal;
         alignas(32) lightcuts::Lanes x, y, z, cosine, geometric, in_range;
         for (int i = 0; i < lanes; ++i) {
@@ -173,7 +177,7 @@ private:
         for (int i = 0; i < count; ++i) {
             Node& node = *members[i];
             node.transfer = in_range[i] > 0.0f ? finite(albedo_ * cosine[i] * geometric[i])
-                                               : terms_of(light_of(node.representative));
+                                               : transfer_of(light_of(node.representative));
             node.queried = node.transfer != glm::vec3(0.0f);
             if (!node.queried) continue;
             node.estimate = finite(node.transfer * clusters_[node.node].intensity);
@@ -182,7 +186,7 @@ private:
     }
 
     /// In double, for what is out of float's range.
-    glm::vec3 terms_of(const Light& light) const {
+    glm::vec3 transfer_of(const Light& light) const {
         const glm::dvec3 offset = glm::dvec3(light.position) - glm::dvec3(point_->position);
         const double distance2 = glm::dot(offset, offset);
         if (!(distance2 > 0.0)) return glm::vec3(0.0f);
@@ -193,89 +197,98 @@ private:
     }
 
     void add(const glm::vec3& estimate, double sign) {
-        for (int c = 0; c < 3; ++c) {
-            total_[c] += sign * static_cast<double>(estimate[c]);
-            largest_[c] = total_[c] > largest_[c] ? total_[c] : largest_[c];
-        }
+        for (int c = 0; c < 3; ++c) total_[c] += sign * static_cast<double>(estimate[c]);
     }
 
-    /// Traces the shadow rays of new nodes, which join the frontier.
+    /// Traces the shadow rays of new nodes, which join the frontier, in the places of those that were refined first.
     void absorb() {
-        for (const std::size_t end = nodes_.size(); absorbed_ < end; ++absorbed_) {
-            Node& node = nodes_[absorbed_];
+        for (std::size_t i = absorbed_; i < nodes_.size(); ++i) {
+            Node& node = nodes_[i];
             if (node.queried && !is_lit(point_->shadow_origin, light_of(node.representative).position)) {
                 node.transfer = node.transfer * 0.0f;
                 node.estimate = node.estimate * 0.0f;
             }
             add(node.estimate, 1.0);
-            const bool rests = node.bound == glm::vec3(0.0f) || priority(node) <= rest_below * threshold_;
-            (rests ? resting_ : active_).push_back(static_cast<std::uint32_t>(absorbed_));
         }
+        while (!holes_.empty() && nodes_.size() > absorbed_) {
+            const std::uint32_t at = holes_.back();
+            holes_.pop_back();
+            nodes_[at] = nodes_.back();
+            nodes_.pop_back();
+            keys_[at] = key(nodes_[at]);
+        }
+        keys_.resize(nodes_.size());
+        for (; absorbed_ < nodes_.size(); ++absorbed_) keys_[absorbed_] = key(nodes_[absorbed_]);
     }
 
-    void weigh() {
+    void update_weights() {
         bool is_noise = false;
-        for (int c = 0; c < 3; ++c) is_noise = is_noise || !(largest_[c] <= 1e6 * total_[c]);
+        for (int c = 0; c < 3; ++c) {
+            largest_[c] = total_[c] > largest_[c] ? total_[c] : largest_[c];
+            is_noise = is_noise || !(largest_[c] <= 1e6 * total_[c]);
+        }
         if (is_noise) {
             for (double& t : total_) t = 0.0;
-            for (double& l : largest_) l = 0.0;
-            for (const std::uint32_t i : resting_) add(nodes_[i].estimate, 1.0);
-            for (const std::uint32_t i : active_) add(nodes_[i].estimate, 1.0);
-        }
-        for (int c = 0; c < 3; ++c) {
-            weight_[c] = total_[c] * darkest > 1.0 ? 1.0 / total_[c] : darkest;
-            least_[c] = std::min(least_[c], weight_[c]);
-        }
-    }
-
-    double growth() const {
-        double largest = 0.0;
-        for (int c = 0; c < 3; ++c) largest = std::max(largest, weight_[c] / least_[c]);
-        return largest;
-    }
-
-    void wake() {
-        std::size_t kept = 0;
-        for (const std::uint32_t i : resting_) {
-            if (nodes_[i].bound == glm::vec3(0.0f)) {
-                resting_[kept++] = i;
-            } else {
-                active_.push_back(i);
+            for (std::size_t i = 0; i < absorbed_; ++i) {
+                if (keys_[i] != hole) add(nodes_[i].estimate, 1.0);
             }
+            for (int c = 0; c < 3; ++c) largest_[c] = total_[c];
         }
-        resting_.resize(kept);
-        for (int c = 0; c < 3; ++c) least_[c] = weight_[c];
+        for (int c = 0; c < 3; ++c) weight_[c] = total_[c] * darkest > 1.0 ? 1.0 / total_[c] : darkest;
     }
 
     double priority(const Node& node) const {
         double largest = 0.0;
         for (int c = 0; c < 3; ++c) {
-            const double p = static_cast<double>(node.bound[c]) * weight_[c];
+            const double p = static_cast<double>(node.bound[c]) * base_[c];
             largest = p > largest ? p : largest;
         }
         return largest;
     }
+    double key(const Node& node) const { return node.bound == glm::vec3(0.0f) ? final_node : priority(node); }
 
-    void select() {
-        chosen_.clear();
-        std::size_t kept = 0;
-        for (const std::uint32_t i : active_) {
-            const double p = priority(nodes_[i]);
-            if (p <= rest_below * threshold_) {
-                resting_.push_back(i);
-                continue;
-            }
-            if (p > threshold_) chosen_.push_back({&nodes_[i], static_cast<std::uint32_t>(kept), p});
-            active_[kept++] = i;
+    void choose() {
+        double most = weight_[0] / base_[0], least = most;
+        for (int c = 1; c < 3; ++c) {
+            const double ratio = weight_[c] / base_[c];
+            most = std::max(most, ratio);
+            least = std::min(least, ratio);
         }
-        active_.resize(kept);
-        tighten();
+        if (!(most / least <= most_spread)) {
+            for (int c = 0; c < 3; ++c) base_[c] = weight_[c];
+            most = 1.0;
+            for (std::size_t i = 0; i < absorbed_; ++i) {
+                if (keys_[i] != hole) keys_[i] = key(nodes_[i]);
+            }
+        }
+        const double threshold = threshold_ / most;
+        bool any_left = true;
+        do {
+            double largest = 0.0;
+            for (std::size_t i = 0; i < absorbed_; ++i) {
+                if (keys_[i] < std::numeric_limits<double>::infinity()) largest = std::max(largest, keys_[i]);
+            }
+            const double cutoff = round_fraction_ * largest;
+            any_left = cutoff > threshold;
+            chosen_.clear();
+            for (std::size_t i = 0; i < absorbed_; ++i) {
+                if (keys_[i] > threshold && keys_[i] >= cutoff) {
+                    chosen_.push_back({static_cast<std::uint32_t>(i), keys_[i]});
+                }
+            }
+            tighten();
+            keep_top(threshold);
+        } while (chosen_.empty() && any_left);
+    }
+
+    void keep_top(double threshold) {
         double largest = 0.0;
         for (const Candidate& c : chosen_) {
+            keys_[c.at] = c.priority;
             if (c.priority < std::numeric_limits<double>::infinity()) largest = std::max(largest, c.priority);
         }
         std::erase_if(chosen_, [&](const Candidate& c) {
-            return !(c.priority > threshold_) || c.priority < round_fraction_ * largest;
+            return !(c.priority > threshold) || c.priority < round_fraction_ * largest;
         });
     }
 
@@ -286,17 +299,17 @@ private:
         for (std::size_t next = 0; next < chosen_.size();) {
             int count = 0;
             for (; next < chosen_.size() && count < lanes; ++next) {
-                if (!chosen_[next].node->bounded) members[count++] = &chosen_[next];
+                if (!nodes_[chosen_[next].at].bounded) members[count++] = &chosen_[next];
             }
             if (count == 0) continue;
-            for (int i = 0; i < count; ++i) clusters[i] = &clusters_[members[i]->node->node];
+            for (int i = 0; i < count; ++i) clusters[i] = &clusters_[nodes_[members[i]->at].node];
             const lightcuts::ClusterBlock block(clusters, count, lightcuts::box_of(point_->position));
             lightcuts::ConeBlock normals;
             normals.fill(point_->material.normal, block);
             alignas(32) lightcuts::Lanes bound;
             lightcuts::detail::max_dots_over_distance<3>(normals.axis, normals.support, block, bound);
             for (int i = 0; i < count; ++i) {
-                Node& node = *members[i]->node;
+                Node& node = nodes_[members[i]->at];
                 node.bounded = true;
                 node.unit_bound = glm::min(node.unit_bound, lightcuts::detail::scale_bound(albedo_, bound[i]));
                 node.bound = product(node.unit_bound, clusters[i]->intensity);
@@ -307,18 +320,17 @@ private:
 
     Result result() const {
         double radiance[3] = {}, bound[3] = {};
-        for (const auto* indices : {&resting_, &active_}) {
-            for (const std::uint32_t i : *indices) {
-                for (int c = 0; c < 3; ++c) {
-                    radiance[c] += static_cast<double>(nodes_[i].estimate[c]);
-                    bound[c] += static_cast<double>(nodes_[i].bound[c]);
-                }
+        for (std::size_t i = 0; i < absorbed_; ++i) {
+            if (keys_[i] == hole) continue;
+            for (int c = 0; c < 3; ++c) {
+                radiance[c] += static_cast<double>(nodes_[i].estimate[c]);
+                bound[c] += static_cast<double>(nodes_[i].bound[c]);
             }
         }
         Result result;
         result.radiance = finite(glm::vec3(radiance[0], radiance[1], radiance[2]));
         for (int c = 0; c < 3; ++c) result.error_bound[c] = lightcuts::round_up(bound[c]);
-        result.cut_size = static_cast<std::uint32_t>(active_.size() + resting_.size());
+        result.cut_size = static_cast<std::uint32_t>(absorbed_ - holes_.size());
         result.queries = queries_;
         return result;
     }
@@ -327,16 +339,17 @@ private:
     const std::uint32_t* words_;
     const Tree::cluster* clusters_;
     const std::uint32_t* representatives_;
-    std::uint32_t root_;
+    std::span<const std::uint32_t> start_;
     double threshold_, round_fraction_;
 
     const Point* point_ = nullptr;
     glm::vec3 albedo_{};  ///< over pi
-    double total_[3]{}, weight_[3]{}, least_[3]{}, largest_[3]{};
+    double total_[3]{}, weight_[3]{}, base_[3]{}, largest_[3]{};
     std::uint32_t queries_ = 0;
-    std::vector<Node> nodes_;                      ///< all, refined ones too
-    std::vector<std::uint32_t> active_, resting_;  ///< the frontier
-    std::size_t absorbed_ = 0;                     ///< nodes behind are new
+    std::vector<Node> nodes_;           ///< the frontier, with holes, and new nodes behind
+    std::vector<double> keys_;          ///< of the frontier
+    std::vector<std::uint32_t> holes_;  ///< places of refined nodes
+    std::size_t absorbed_ = 0;          ///< nodes behind are new
     std::vector<Candidate> chosen_;
 };
 

@@ -22,8 +22,10 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 const Lambert<V> upward{{0.0f, 0.0f, 1.0f}, V(1.0f)};
 constexpr float by_pi = 0.31830988618f;
 
-static_assert(BoundPolicy<SeparateBounds, Lambert<V>, LightCluster<OmniLight<>>> && !TwoStagePolicy<SeparateBounds>);
-static_assert(BoundPolicy<TwoStageBounds, Lambert<V>, LightCluster<OmniLight<>>> && TwoStagePolicy<TwoStageBounds>);
+static_assert(BoundPolicy<SeparateBounds, Lambert<V>, LightCluster<OmniLight<>>> &&
+              !TwoStagePolicy<SeparateBounds, Lambert<V>, LightCluster<OmniLight<>>>);
+static_assert(BoundPolicy<TwoStageBounds, Lambert<V>, LightCluster<OmniLight<>>> &&
+              TwoStagePolicy<TwoStageBounds, Lambert<V>, LightCluster<OmniLight<>>>);
 
 template <Light L>
 LightCluster<L> cluster_over(const V& lo, const V& hi) {

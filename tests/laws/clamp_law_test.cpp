@@ -323,7 +323,7 @@ TEST(Clamping, OfALimitedCutFindsTheLightNearby) {
     }
 }
 
-TEST(Clamping, OfDarknessIsDarkness) {
+TEST(Clamping, LeavesDarknessDark) {
     Room<V> room(67);
     auto lights = marked(room.oriented(300));
     const auto direct = room.oriented(20);

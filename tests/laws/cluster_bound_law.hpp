@@ -49,7 +49,7 @@ inline std::string text_of(const glm::vec3& v) {
     return out.str();
 }
 
-/// The transfer of one light as a cut computes them, several at a time.
+/// The transfer of one light as a cut computes it, several at a time.
 template <class M, Light L>
 glm::vec3 transfer_in_lane(const Receiver<M>& receiver, const L& light) {
     LightBlock block;

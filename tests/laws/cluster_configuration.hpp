@@ -258,9 +258,9 @@ struct MaterialMaker<ModifiedPhong<glm::vec3>> {
         return {n, view, random_albedo(random), exponent};
     }
 };
-template <class Normalisation>
-struct MaterialMaker<Ward<glm::vec3, Normalisation>> {
-    static Ward<glm::vec3, Normalisation> make(Random& random, const glm::vec3& n, const glm::vec3& view) {
+template <class Normalization>
+struct MaterialMaker<Ward<glm::vec3, Normalization>> {
+    static Ward<glm::vec3, Normalization> make(Random& random, const glm::vec3& n, const glm::vec3& view) {
         return {n, view, random_albedo(random), static_cast<float>(random.decades(-3.0, 0.0))};
     }
 };

@@ -106,12 +106,12 @@ TEST(MaterialBound, DominatesSeparableGgx) {
     }
 }
 
-template <class Normalisation>
+template <class Normalization>
 void expect_ward_dominated(std::uint64_t seed) {
     for (const float alpha : roughnesses) {
         SCOPED_TRACE(alpha);
         EXPECT_EQ(0, violations(seed, [alpha](const Surface& s, Numbers&) {
-                      return Ward<float, Normalisation>{s.normal, s.view, 0.5f, alpha};
+                      return Ward<float, Normalization>{s.normal, s.view, 0.5f, alpha};
                   }));
     }
 }

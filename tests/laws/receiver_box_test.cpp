@@ -132,7 +132,7 @@ TEST(ReceiverBox, BoundsDominateDistantLights) { expect_bounds_hold_over_boxes<D
 TEST(ReceiverBox, BoundsDominateSpots) { expect_bounds_hold_over_boxes<SpotLight<>>(4); }
 
 /// A box of one point is that point: the same bits from lanes of one receiver and from lanes of pairs.
-TEST(ReceiverBox, OfOnePointIsTheReceiver) {
+TEST(ReceiverBox, BoxOfOnePointGivesTheBoundOfThePoint) {
     Random random(5);
     for (int trial = 0; trial < 20000; ++trial) {
         const ClusterConfiguration c = random_configuration(random);

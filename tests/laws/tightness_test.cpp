@@ -54,7 +54,7 @@ double looseness(const std::vector<L>& lights, const std::vector<Receiver<M>>& r
 
 // Figures of a small scene, so that a bound that is valid but useless is noticed. The benchmark `tightness` has the
 // larger ones.
-TEST(Tightness, OfCutsIsNearThatOfTrueMaxima) {
+TEST(Tightness, CutsAreNearlyThoseOfTrueMaxima) {
     Room<glm::vec3> room(21);
     const auto diffuse = room.diffuse_receivers(60);
     const auto glossy = room.glossy_receivers(60);
@@ -66,7 +66,7 @@ TEST(Tightness, OfCutsIsNearThatOfTrueMaxima) {
 }
 
 // For a single cluster at one point nothing is lost but the margin for rounding.
-TEST(Tightness, OfThePointClusterIsExact) {
+TEST(Tightness, BoundOfOnePointIsExact) {
     Random random(22);
     for (int i = 0; i < 20000; ++i) {
         const glm::vec3 position(random.on_sphere() * random.between(0.5, 4.0));

@@ -31,7 +31,7 @@ public:
     /// Takes a warning in one line.
     using Warn = std::function<void(const std::string&)>;
 
-    /// Opens what is at `path`. Later problems of writing go to `warn`, once, and to nobody else.
+    /// Opens what is at `path`. Later problems of writing go to `warn`, once.
     ResumeFile(std::filesystem::path path, Warn warn);
     /// Keeps the file if it holds tiles.
     ~ResumeFile();

@@ -109,7 +109,8 @@ double cosine_lobe_bound(const glm::vec3& normal, const LightCluster<L>& cluster
     return cosine_lobe_bound(glm::dvec3(normal), cluster, view);
 }
 
-/// The same for surfaces whose normals fill a cone.
+/// Upper bound of cosine x emission x attenuation of any light in the cluster, for diffuse surfaces whose normals fill
+/// a cone.
 template <Light L>
 double cosine_lobe_bound(const Cone& normals, const LightCluster<L>& cluster, const ClusterView& view) {
     if (is_single(normals)) return cosine_lobe_bound(normals.axis, cluster, view);

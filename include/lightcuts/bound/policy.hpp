@@ -20,9 +20,11 @@ concept BoundPolicy = requires(const P& policy, const B& bound, const C& cluster
 
 /// A policy with an expensive second opinion, `tight(...)`, with the arguments and result of `quick`: asked for before
 /// a cluster is split whose bound is above the threshold by a factor below `tight_band`.
-template <class P>
-concept TwoStagePolicy = P::two_stages && requires(const P& policy) {
+template <class P, class B, class C>
+concept TwoStagePolicy = BoundPolicy<P, B, C> && P::two_stages &&
+    requires(const P& policy, const B& bound, const C& cluster, const Box& receivers) {
     { policy.tight_band } -> std::convertible_to<double>;
+    { policy.tight(bound, cluster, receivers) } -> std::convertible_to<typename C::spectrum>;
 };
 
 namespace detail {

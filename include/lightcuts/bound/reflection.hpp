@@ -169,8 +169,9 @@ void reflection_bounds(const B& bound, const LightCluster<L>* const* clusters, i
     detail::add_reflection_bounds(bound, clusters, count, receivers, block, units);
 }
 
-/// The same for pairs: units[i] for *clusters[i] at the receivers in *receivers[i], whose surfaces *bounds[i] bounds.
-/// Cosine lobes and geometric terms in vector code, other bounds one by one. pre: 0 < count <= lane_count
+/// Quick bounds of up to `lane_count` pairs of a cluster and a box of receivers: units[i] for *clusters[i] at the
+/// receivers in *receivers[i], whose surfaces *bounds[i] bounds. Cosine lobes and geometric terms in vector code, other
+/// bounds one by one. pre: 0 < count <= lane_count
 template <class B, Light L>
 void reflection_bounds(const B* const* bounds, const LightCluster<L>* const* clusters, int count,
                        const Box* const* receivers, spectrum_of<L>* units) {

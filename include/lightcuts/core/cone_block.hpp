@@ -10,7 +10,8 @@
 
 namespace lightcuts {
 
-/// A cone of directions for each box of an OffsetBlock. Fill with `set`, then call `finish`.
+/// A cone of directions for each box of an OffsetBlock. Each block is filled once: with `set`, then
+/// `finish`; or with `fill`.
 struct ConeBlock {
     LaneVectors axis;
     alignas(32) Lanes cos;  ///< of the half-angle; above 1 for a cone of one direction
@@ -47,9 +48,10 @@ struct ConeBlock {
         detail::support(axis, boxes, support);
     }
 
-    /// The same in every lane. pre: `boxes` is finished
+    /// Sets one direction, or one cone, in every lane. pre: `boxes` is finished
     LIGHTCUTS_VECTORIZED void fill(const glm::vec3& direction, const OffsetBlock& boxes) {
         detail::broadcast(direction, axis);
+        for (float& c : cos) c = 2.0f;
         detail::support(direction, boxes, support);
         any_single = true;
     }

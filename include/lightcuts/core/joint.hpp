@@ -26,7 +26,7 @@ inline double joint_start(const glm::dvec3& n, const glm::dvec3& u, const Offset
         const double along_u = larger(dot(u, p), 0.0);
         const double p2 = dot(p, p);
         const double value = along_n * along_u / (p2 * p2);
-        const double better = value > best ? 1.0 : 0.0;  // blends instead of branches that nobody can predict
+        const double better = value > best ? 1.0 : 0.0;  // branchless: which is best is unpredictable
         best_n = better * along_n + (1.0 - better) * best_n;
         best_u = better * along_u + (1.0 - better) * best_u;
         best = larger(best, value);
@@ -121,10 +121,6 @@ inline NearestDirection nearest_direction(const Cone& cone, const OffsetBox& b) 
     const glm::dvec3 side = glm::normalize(w - u * cos_w);
     return {u * cos_cone + side * sin_half_angle(cone), epsilon, true};
 }
-
-}  // namespace detail
-
-namespace detail {
 
 /// What the joint bound needs of one cone of directions over a box.
 struct ConeOverBox {

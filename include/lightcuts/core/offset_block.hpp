@@ -24,9 +24,9 @@ struct OffsetBlock {
     /// Negative for a box that is so far for its size that the largest product over the least distance is nearly a
     /// maximum. By lane, so that a bound does not depend on what stands beside it.
     alignas(32) Lanes nearness;
-    bool all_far;
+    bool all_far;  ///< every lane counts as far
 
-    /// Of a box that counts as far, half of the diagonal over the least distance.
+    /// A box counts as far if half of its diagonal is less than this share of the least distance.
     static constexpr float far_half_diagonal = 0.125f;
 
     /// The middle of a box along axis `k`.

@@ -70,7 +70,10 @@ private:
             n.bounded = true;
             candidates[i]->priority = priority(n);
         }
-        if constexpr (TwoStagePolicy<Policy>) {
+        static_assert(!Policy::two_stages || TwoStagePolicy<Policy, Surface, Cluster>,
+                      "a bound policy of two stages needs tight_band, a number, and tight(bound, cluster, receivers) "
+                      "const, which returns the lights' spectrum");
+        if constexpr (Policy::two_stages) {
             // The tight bound is computed only where it can change the decision.
             for (std::size_t i = 0; policy_.tight_band > 1.0 && i < count; ++i) {
                 Node& n = frontier[candidates[i]->at];

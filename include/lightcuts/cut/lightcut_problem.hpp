@@ -55,9 +55,9 @@ public:
                     if (topology.is_leaf(n)) append(tree, kind, n, black<S>(), out);
                 }
             } else if (start == Start::frontier) {
-                for (const ClusterTree::node_index n : tree.start()) append(tree, kind, n, largest_terms(tree), out);
+                for (const ClusterTree::node_index n : tree.start()) append(tree, kind, n, largest_transfer(tree), out);
             } else {
-                append(tree, kind, topology.root(), largest_terms(tree), out);
+                append(tree, kind, topology.root(), largest_transfer(tree), out);
             }
         });
     }
@@ -150,7 +150,7 @@ private:
 
     /// What is known of a cluster's transfer without looking at it.
     template <class Tree>
-    S largest_terms(const Tree&) const {
+    S largest_transfer(const Tree&) const {
         float largest = std::numeric_limits<float>::infinity();
         if constexpr (ClampableLight<typename Tree::light_type>) largest = options_.clamp.transfer;
         return make_spectrum<S>([&](int) { return largest; });

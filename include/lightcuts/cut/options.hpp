@@ -21,11 +21,11 @@ struct LightcutOptions {
     /// Radiance that the viewer's eye is adapted to. A tenth of it is added to the total before bounds are compared
     /// with it, so that darkness is not refined beyond what such an eye sees [Multidimensional Lightcuts 2006, Eq. 15].
     float adaptation = 0.0f;
-    /// Of the choice among several representatives.
+    /// Seed of the choice among several representatives of a cluster.
     std::uint64_t seed = 1;
     /// See RefinementOptions.
     double round_fraction = 0.1;
-    /// Of lights whose kind is a ClampableLight. Off by default.
+    /// Limits what lights whose kind is a ClampableLight add. Off by default.
     ClampingOptions clamp{};
 };
 

@@ -4,6 +4,7 @@
 #include <concepts>
 #include <cstddef>
 #include <limits>
+#include <type_traits>
 
 #include <glm/vec3.hpp>
 
@@ -47,8 +48,8 @@ struct CosineLobe {
 /// forms the joint bound of cosine and distance.
 template <class B, class S>
 concept BoundsByCosineLobe = Spectrum<S> && requires(const B& b) {
-    requires std::same_as<decltype(b.cosine_lobe()), CosineLobe<S>> ||
-        std::same_as<decltype(b.cosine_lobe()), CosineLobe<S, Cone>>;
+    requires std::same_as<std::remove_cvref_t<decltype(b.cosine_lobe())>, CosineLobe<S>> ||
+        std::same_as<std::remove_cvref_t<decltype(b.cosine_lobe())>, CosineLobe<S, Cone>>;
 };
 
 namespace detail {
@@ -60,7 +61,8 @@ struct AnyComponent {
 }  // namespace detail
 
 /// Bounds what some surfaces reflect by a sum: `for_each_component(f)` calls f(component) for each of some bounds, so
-/// that each is formed in its own best way and jointly with the geometry.
+/// that each is formed in its own best way and jointly with the geometry. Each component is a ReflectionBound of the
+/// same spectrum, which is checked where it is asked.
 template <class B>
 concept BoundsByComponents = requires(const B& b, detail::AnyComponent visit) {
     b.for_each_component(visit);
