@@ -84,7 +84,8 @@ LIGHTCUTS_VECTORIZED inline void joint_cosines_bounds(const ConeBlock& normals, 
 /// Upper bound of cosine x emission x attenuation of any light in the cluster, for a diffuse surface with this normal;
 /// jointly where that costs no more.
 template <Light L>
-double cosine_lobe_bound(const glm::dvec3& normal, const LightCluster<L>& cluster, const ClusterView& view) {
+double cosine_lobe_bound(const glm::vec3& surface_normal, const LightCluster<L>& cluster, const ClusterView& view) {
+    const glm::dvec3 normal(surface_normal);
     if constexpr (DirectionalLight<L>) {
         return clamped_max_cosine_of_directions(normal, view.box);
     } else if constexpr (inverse_square<L> && !OrientedLight<L>) {
@@ -103,10 +104,6 @@ double cosine_lobe_bound(const glm::dvec3& normal, const LightCluster<L>& cluste
         const double geometric = geometric_bound(cluster, view);
         return geometric > 0.0 ? cosine * geometric : 0.0;
     }
-}
-template <Light L>
-double cosine_lobe_bound(const glm::vec3& normal, const LightCluster<L>& cluster, const ClusterView& view) {
-    return cosine_lobe_bound(glm::dvec3(normal), cluster, view);
 }
 
 /// Upper bound of cosine x emission x attenuation of any light in the cluster, for diffuse surfaces whose normals fill
@@ -135,12 +132,12 @@ double joint_cosine_lobe_bound(const Normal& normal, const LightCluster<L>& clus
     }
 }
 
-/// `cosine_lobe_bound` of every lane.
+namespace detail {
+
+/// `cosine_lobe_bound` of every lane, of the axis of its cone of normals alone.
 template <Light L, class Receivers>
-void cosine_lobe_bounds(const ConeBlock& normals, const LightCluster<L>* const* clusters, int count,
-                        const Receivers& receivers, ClusterBlock<L>& block, Lanes& bounds) {
-    using namespace detail;
-    alignas(32) Lanes geometric;
+void axis_lobe_bounds(const ConeBlock& normals, const LightCluster<L>* const* clusters, int count,
+                      const Receivers& receivers, ClusterBlock<L>& block, Lanes& bounds) {
     if constexpr (DirectionalLight<L>) {
         max_dots_over_distance<1>(normals.axis, normals.support, block, bounds);
         // Directions are unit vectors, so n.p itself bounds the cosine too.
@@ -149,6 +146,7 @@ void cosine_lobe_bounds(const ConeBlock& normals, const LightCluster<L>* const* 
             bounds[i] = smaller(smaller(bounds[i], most) * 1.000003f, 1.0f);
         }
     } else if constexpr (!inverse_square<L>) {
+        alignas(32) Lanes geometric;
         geometric_bounds(clusters, count, receivers, block, geometric);
         max_dots_over_distance<1>(normals.axis, normals.support, block, bounds);
         for (int i = 0; i < lane_count; ++i) bounds[i] = smaller(bounds[i], 1.0f);
@@ -175,12 +173,23 @@ void cosine_lobe_bounds(const ConeBlock& normals, const LightCluster<L>* const* 
             }
         }
     }
+}
+
+}  // namespace detail
+
+/// `cosine_lobe_bound` of every lane.
+template <Light L, class Receivers>
+void cosine_lobe_bounds(const ConeBlock& normals, const LightCluster<L>* const* clusters, int count,
+                        const Receivers& receivers, ClusterBlock<L>& block, Lanes& bounds) {
+    if (normals.any_single) detail::axis_lobe_bounds(normals, clusters, count, receivers, block, bounds);
     if (!normals.any_wide) return;
-    alignas(32) Lanes wide;
-    clamped_max_cosines(normals, block, wide);
+    alignas(32) Lanes wide, geometric;
+    detail::clamped_max_cosines(normals, block, wide);
     geometric_bounds(clusters, count, receivers, block, geometric);
-    multiply(wide, geometric, wide);
-    for (int i = 0; i < lane_count; ++i) bounds[i] = select(normals.is_single(i), bounds[i], wide[i]);
+    detail::multiply(wide, geometric, wide);
+    for (int i = 0; i < lane_count; ++i) {
+        if (!normals.is_single(i)) bounds[i] = wide[i];
+    }
 }
 
 }  // namespace lightcuts

@@ -9,13 +9,14 @@
 #include "../core/cone_block.hpp"
 #include "../core/offset_block.hpp"
 #include "../light/light.hpp"
+#include "../material/conservative_rounding.hpp"
 #include "../tree/light_cluster.hpp"
 
 namespace lightcuts {
 
 /// A cluster's lights as the receivers in a box see them: the box of their offsets, or of the directions towards
-/// distant lights, and how near they are. Widened by `offset_margin`, so that bounds over the box hold for what
-/// `evaluate` returns; zeros stay zeros.
+/// distant lights, and how near they are. Widened by the float rounding of the directions that materials are given, so
+/// that bounds over the box hold for what `evaluate` returns; zeros stay zeros.
 struct ClusterView {
     OffsetBox box;
     double distance2;         ///< lower bound of the squared distance; 0 if the box touches the receivers
@@ -25,16 +26,12 @@ struct ClusterView {
 /// pre: `cluster` holds a light; `receivers` is not empty, and `box_of` for one of them.
 template <Light L>
 ClusterView view_of(const LightCluster<L>& cluster, const Box& receivers) {
-    glm::dvec3 lo(cluster.box.lo), hi(cluster.box.hi);
-    if constexpr (!DirectionalLight<L>) {
-        lo -= glm::dvec3(receivers.hi);
-        hi -= glm::dvec3(receivers.lo);
-    }
-    constexpr auto r = static_cast<double>(offset_margin);
-    lo -= r * glm::dvec3(std::fabs(lo.x), std::fabs(lo.y), std::fabs(lo.z));
-    hi += r * glm::dvec3(std::fabs(hi.x), std::fabs(hi.y), std::fabs(hi.z));
     ClusterView view;
-    view.box = {lo, hi};
+    if constexpr (DirectionalLight<L>) {
+        view.box = detail::rounded_directions({glm::dvec3(cluster.box.lo), glm::dvec3(cluster.box.hi)});
+    } else {
+        view.box = detail::rounded_directions(offsets(cluster.box, receivers));
+    }
     view.distance2 = min_distance2(view.box);
     view.inverse_distance = 1.0 / std::sqrt(view.distance2);
     return view;
@@ -67,12 +64,10 @@ struct ClusterBlock : OffsetBlock {
                 const Box& seen_from = receivers(i);
                 set(i, lights.lo - seen_from.hi, lights.hi - seen_from.lo);
             }
+            if constexpr (oriented) reversed_axes.set(i, negated(clusters[i]->cone));
         }
         finish(count);
-        if constexpr (oriented) {
-            for (int i = 0; i < count; ++i) reversed_axes.set(i, negated(clusters[i]->cone));
-            reversed_axes.finish(count, *this);
-        }
+        if constexpr (oriented) reversed_axes.finish(count, *this);
     }
     /// All of one box of receivers.
     ClusterBlock(const LightCluster<L>* const* clusters, int count, const Box& receivers)

@@ -9,8 +9,9 @@
 
 namespace lightcuts {
 
-/// By how much of each coordinate, to either side, boxes of offsets are widened before anything is bounded over them:
-/// the rounding of float differences, and of the directions that materials are given. Zeros stay zeros.
+/// By how much of each coordinate, to either side, the boxes of an OffsetBlock are widened: 16 unit roundoffs of float
+/// for the directions that materials are given, and one for the float differences that the boxes are made of. Zeros
+/// stay zeros.
 inline constexpr float offset_margin = 0x1.1p-20f;
 
 /// Several boxes of offsets, coordinate by coordinate in float: the quick bounds of all of them are computed in loops
