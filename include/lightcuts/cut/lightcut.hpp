@@ -292,8 +292,8 @@ void shade(const Lights& lights, std::span<const Receiver<M>> receivers, const O
     }
 }
 
-/// Shades the receivers of a vector, a span, an array or another contiguous range; `results` is resized if it is a
-/// vector. Else as with spans.
+/// Shades the receivers of a vector, an array or another contiguous range, as the function that takes spans does, into
+/// a contiguous range of results: a vector is resized, another needs room for all.
 template <TreeOrForest Lights, detail::Receivers Rs, class Oracle, class Results, class Policy = TwoStageBounds>
     requires(std::ranges::contiguous_range<Results>&&
                  std::same_as<std::ranges::range_value_t<Results>, CutResult<forest_spectrum<Lights>>>)

@@ -131,17 +131,16 @@ public:
 
     /// Builds the tree of a std::vector, a std::array, an array or another contiguous range that outlives the tree.
     template <detail::LightsOf<L> R, class Builder = BinnedBuilder, Executor E = Sequential>
-        requires(!std::same_as<std::remove_cvref_t<R>, std::span<const L>> &&
-                 (std::is_lvalue_reference_v<R> || std::ranges::borrowed_range<R>))
-    explicit LightTree(R&& lights, const LightTreeOptions& options = {}, const Builder& builder = {},
+        requires(!std::same_as<R, std::span<const L>>)
+    explicit LightTree(const R& lights, const LightTreeOptions& options = {}, const Builder& builder = {},
                        const E& execute = {})
         : LightTree(std::span<const L>(std::ranges::data(lights), std::ranges::size(lights)), options, builder,
                     execute) {}
 
     /// Deleted: a tree refers to its lights, and these would be gone. Keep them in a variable.
     template <detail::LightsOf<L> R, class... Rest>
-        requires(!std::is_lvalue_reference_v<R> && !std::ranges::borrowed_range<R>)
-    explicit LightTree(R&&, const Rest&...) = delete;
+        requires(!std::ranges::borrowed_range<R>)
+    explicit LightTree(const R&&, const Rest&...) = delete;
 
     /// Brings boxes, cones, intensities and representatives up to date after lights moved, turned or dimmed in
     /// place. The topology stays: rebuild when clusters have drifted apart. cost: O(N).
