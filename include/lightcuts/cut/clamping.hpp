@@ -54,14 +54,16 @@ public:
     bool is_automatic() const { return options_.is_automatic(); }
 
     /// True if the total has left the neighborhood of the one that the threshold was made of. Where few lights have
-    /// arrived, each more of them changes the ratio: a small neighborhood.
+    /// arrived, each more of them changes the ratio: a small neighborhood, but not each total, or refining one node at
+    /// a time would solve again for each. What is off is made good by `RunningTotal::revise`.
     bool has_moved(const Sums& total) const {
         if (!options_.is_automatic()) return false;
         bool moved = false;
         for (std::size_t c = 0; c < total.size(); ++c) {
             const double now = total[c], then = total_[c];
             const bool few = ratio_[c] > static_cast<double>(options_.ratio);
-            moved = moved || now > 1.25 * then || now < 0.8 * then || (few && now != then);
+            const double most = few ? 1.01 : 1.25;
+            moved = moved || now > most * then || now * most < then;
         }
         return moved;
     }
