@@ -131,12 +131,4 @@ TEST(OffsetBox, ScalesLikeItsPoints) {
     }
 }
 
-TEST(OffsetBox, DirectionsAreReversed) {
-    const Box down = merge(box_of({0.0f, -1.0f, 0.0f}), box_of({0.6f, -0.8f, 0.0f}));
-    const OffsetBox up = towards_lights(down);
-    EXPECT_TRUE(contains(up, glm::dvec3(0.0, 1.0, 0.0)));
-    EXPECT_TRUE(contains(up, glm::dvec3(-glm::vec3(0.6f, -0.8f, 0.0f))));
-    EXPECT_EQ(up.lo.z, 0.0);
-}
-
 }  // namespace

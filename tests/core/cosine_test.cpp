@@ -199,6 +199,11 @@ TEST(MaxCosine, IsTightOnBothSidesOfTheHorizon) {
     }
 }
 
+/// The box of -p.
+OffsetBox opposite(const Box& directions) {
+    return negated(OffsetBox{glm::dvec3(directions.lo), glm::dvec3(directions.hi)});
+}
+
 TEST(MaxCosine, OfDirectionsUsesTheirLength) {
     Draw draw(9);
     double sum_plain = 0.0;
@@ -212,7 +217,7 @@ TEST(MaxCosine, OfDirectionsUsesTheirLength) {
             travels.push_back(glm::vec3(glm::normalize(middle + draw.in_cube(spread))));
             box = merge(box, box_of(travels.back()));
         }
-        const OffsetBox b = towards_lights(box);
+        const OffsetBox b = opposite(box);
         const glm::dvec3 v = draw.direction();
         const double bound = clamped_max_cosine_of_directions(v, b);
         for (const glm::vec3& d : travels) {
@@ -224,7 +229,7 @@ TEST(MaxCosine, OfDirectionsUsesTheirLength) {
         sum_plain += clamped_max_cosine(v, b);
     }
     EXPECT_LT(sum_better, sum_plain);
-    const OffsetBox side = towards_lights(box_of({1.0f, 0.0f, 0.0f}));
+    const OffsetBox side = opposite(box_of({1.0f, 0.0f, 0.0f}));
     EXPECT_EQ(clamped_max_cosine_of_directions({0.0, 1.0, 0.0}, side), 0.0);
 }
 

@@ -23,6 +23,9 @@ using V = glm::vec3;
 using Sphere = SphereLight<V>;
 static_assert(PointLight<SpherePointLight<V>> && !OrientedLight<SpherePointLight<V>>);
 
+/// Of a sphere whose surface emits `radiance`.
+V intensity_of(float radius, const V& radiance) { return std::numbers::pi_v<float> * radius * radius * radiance; }
+
 std::vector<SpherePointLight<V>> lights_of(const Sphere& sphere, std::size_t count, std::uint64_t seed = 0) {
     return sphere_lights(std::span<const Sphere>(&sphere, 1), count, ScrambledSobol{seed});
 }
@@ -64,7 +67,7 @@ TEST(SphereLights, ProjectUniformlyOnTheSpheresDiscSeenFromAnywhere) {
 }
 
 TEST(SphereLights, GiveTheExactIrradianceAtADistance) {
-    const Sphere sphere{V(0.0f, 0.0f, 0.0f), 1.0f, sphere_intensity(1.0f, V(2.0f, 3.0f, 0.0f))};
+    const Sphere sphere{V(0.0f, 0.0f, 0.0f), 1.0f, intensity_of(1.0f, V(2.0f, 3.0f, 0.0f))};
     const auto lights = lights_of(sphere, 16384);
     for (const float d : {1.2f, 2.0f, 10.0f, 1000.0f}) {
         // A facing plane gets pi L (R/d)^2 = I / d^2 from a whole sphere above its horizon.
@@ -112,7 +115,7 @@ struct SphereShadows {
 
 TEST(SphereLights, EqualTheirTriangulatedTwinShadowsIncluded) {
     const V radiance(1.0f, 0.5f, 2.0f);
-    const Sphere sphere{V(0.0f, 0.0f, 3.0f), 0.8f, sphere_intensity(0.8f, radiance)};
+    const Sphere sphere{V(0.0f, 0.0f, 3.0f), 0.8f, intensity_of(0.8f, radiance)};
     const auto points = lights_of(sphere, 4096);
     const auto triangles = triangulated(sphere, radiance, 64);
     const auto twins = area_lights(EmissiveTriangles<V>(triangles), 16384);

@@ -106,12 +106,6 @@ inline OffsetBox offsets(const Box& lights, const Box& receivers) {
 /// The box of -p.
 inline OffsetBox negated(const OffsetBox& b) { return {-b.hi, -b.lo}; }
 
-/// The box of the directions *towards* distant lights, given the box of the unit directions their light travels.
-/// Its points of interest have length 1: see `max_cosine_of_directions`.
-inline OffsetBox towards_lights(const Box& directions) {
-    return {-glm::dvec3(directions.hi), -glm::dvec3(directions.lo)};
-}
-
 /// The middle of `b`.
 inline glm::dvec3 center(const OffsetBox& b) { return 0.5 * (b.lo + b.hi); }
 

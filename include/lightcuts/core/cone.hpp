@@ -48,19 +48,6 @@ inline double sin_half_angle(const Cone& c) {
     return 2.0 * std::sqrt(s2 * (1.0 - s2));
 }
 
-/// beta in radians; pre: not empty.
-inline double half_angle(const Cone& c) {
-    const double s2 = static_cast<double>(c.sin2_half);
-    return 2.0 * std::atan2(std::sqrt(s2), std::sqrt(1.0 - s2));
-}
-
-/// The angle between two vectors, in radians, accurate from 0 to pi; pre: neither is zero.
-inline double angle_between(const glm::dvec3& a, const glm::dvec3& b) {
-    const glm::dvec3 s = glm::normalize(a);
-    const glm::dvec3 t = glm::normalize(b);
-    return 2.0 * std::atan2(glm::length(s - t), glm::length(s + t));
-}
-
 /// True iff `direction` lies in `c`, within 1e-15 radians: the rounding of unit vectors. pre: `direction` is not zero.
 inline bool contains(const Cone& c, const glm::dvec3& direction) {
     if (is_empty(c)) return false;

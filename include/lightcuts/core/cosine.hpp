@@ -48,8 +48,8 @@ inline double min_cosine(const glm::dvec3& v, const OffsetBox& b, double toleran
     return -max_cosine(-v, b, tolerance, iterations);
 }
 
-/// Upper bound of max(0, cos) between `v` and directions towards distant lights, which `b` holds (`towards_lights`).
-/// They have length 1 within float rounding, so v.p itself bounds the cosine too.
+/// Upper bound of max(0, cos) between `v` and the unit vectors in `b`, such as directions towards distant lights. They
+/// have length 1 within float rounding, so v.p itself bounds the cosine too.
 /// pre: `v` is a unit vector
 inline double clamped_max_cosine_of_directions(const glm::dvec3& v, const OffsetBox& b, double tolerance = 1e-3,
                                                int iterations = 60) {

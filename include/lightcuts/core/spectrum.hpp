@@ -97,17 +97,6 @@ constexpr float channel_max(const S& s) {
     return largest;
 }
 
-/// Smallest channel.
-template <Spectrum S>
-constexpr float channel_min(const S& s) {
-    float smallest = channel(s, 0);
-    for (int i = 1; i < channels_of<S>; ++i) {
-        const float c = channel(s, i);
-        smallest = c < smallest ? c : smallest;
-    }
-    return smallest;
-}
-
 /// True iff every channel is exactly zero.
 template <Spectrum S>
 constexpr bool is_black(const S& s) {

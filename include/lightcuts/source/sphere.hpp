@@ -18,19 +18,13 @@
 
 namespace lightcuts {
 
-/// A sphere whose surface emits diffusely.
+/// A sphere whose surface emits the same radiance everywhere and in all directions.
 template <Spectrum S = glm::vec3>
 struct SphereLight {
     glm::vec3 center{0.0f};
     float radius = 1.0f;
-    S intensity = black<S>();  ///< W/sr, seen from far away: pi x radius^2 x radiance
+    S intensity = black<S>();  ///< W/sr, seen from far away: pi x radius^2 x radiance in W/(m^2 sr)
 };
-
-/// The intensity of a sphere of `radius` whose surface emits `radiance`, W/(m^2 sr).
-template <Spectrum S>
-S sphere_intensity(float radius, const S& radiance) {
-    return S(radiance * (std::numbers::pi_v<float> * radius * radius));
-}
 
 /// One of the omni lights inside a sphere that stand for it. Only what lies outside the sphere may shadow it: an oracle
 /// has to end its shadow ray at `shadow_end`.
