@@ -303,7 +303,7 @@ private:
             }
             if (count == 0) continue;
             for (int i = 0; i < count; ++i) clusters[i] = &clusters_[nodes_[members[i]->at].node];
-            const lightcuts::ClusterBlock block(clusters, count, lightcuts::box_of(point_->position));
+            const lightcuts::detail::ClusterBlock block(clusters, count, lightcuts::box_of(point_->position));
             lightcuts::ConeBlock normals;
             normals.fill(point_->material.normal, block);
             alignas(32) lightcuts::Lanes bound;

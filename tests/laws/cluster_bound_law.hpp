@@ -52,11 +52,11 @@ inline std::string text_of(const glm::vec3& v) {
 /// The transfer of one light as a cut computes it, several at a time.
 template <class M, Light L>
 glm::vec3 transfer_in_lane(const Receiver<M>& receiver, const L& light) {
-    LightBlock block;
+    detail::LightBlock block;
     block.set(0, light);
     block.template finish<L>(1);
     LaneSpectra<glm::vec3> transfer;
-    unshadowed_transfer<L>(
+    detail::unshadowed_transfer<L>(
         receiver, block, 1, [&](int) -> const L& { return light; }, transfer);
     return transfer[0];
 }

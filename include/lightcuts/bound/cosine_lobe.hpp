@@ -12,9 +12,7 @@
 #include "geometric.hpp"
 #include "view.hpp"
 
-namespace lightcuts {
-
-namespace detail {
+namespace lightcuts::detail {
 
 /// A material sees the direction to a light rounded to float, the emitter as it is: where the material's cosine is mere
 /// rounding, its product with the emitter's can exceed the maximum over points by this over the squared distance.
@@ -79,8 +77,6 @@ LIGHTCUTS_VECTORIZED inline void joint_cosines_bounds(const ConeBlock& normals, 
     }
 }
 
-}  // namespace detail
-
 /// Upper bound of cosine x emission x attenuation of any light in the cluster, for a diffuse surface with this normal;
 /// jointly where that costs no more.
 template <Light L>
@@ -92,9 +88,7 @@ double cosine_lobe_bound(const glm::vec3& surface_normal, const LightCluster<L>&
         return max_dot_over_distance<3>(normal, view.box).value;
     } else if constexpr (inverse_square<L>) {
         if constexpr (cosine_emission<L>) {
-            if (is_single(cluster.cone)) {
-                return detail::joint_cosines_bound(normal, -glm::dvec3(cluster.cone.axis), view);
-            }
+            if (is_single(cluster.cone)) { return joint_cosines_bound(normal, -glm::dvec3(cluster.cone.axis), view); }
         }
         const double emission = emission_bound(cluster, view);
         return emission > 0.0 ? emission * max_dot_over_distance<3>(normal, view.box).value : 0.0;
@@ -123,16 +117,14 @@ template <class Normal, Light L>
 double joint_cosine_lobe_bound(const Normal& normal, const LightCluster<L>& cluster, const ClusterView& view) {
     if constexpr (cosine_emission<L> && inverse_square<L>) {
         if constexpr (std::same_as<Normal, Cone>) {
-            return detail::joint_cosines_bound(normal, cluster.cone, view);
+            return joint_cosines_bound(normal, cluster.cone, view);
         } else {
-            return detail::joint_cosines_bound(cone_of(normal), cluster.cone, view);
+            return joint_cosines_bound(cone_of(normal), cluster.cone, view);
         }
     } else {
         return cosine_lobe_bound(normal, cluster, view);
     }
 }
-
-namespace detail {
 
 /// `cosine_lobe_bound` of every lane, of the axis of its cone of normals alone.
 template <Light L, class Receivers>
@@ -175,21 +167,19 @@ void axis_lobe_bounds(const ConeBlock& normals, const LightCluster<L>* const* cl
     }
 }
 
-}  // namespace detail
-
 /// `cosine_lobe_bound` of every lane.
 template <Light L, class Receivers>
 void cosine_lobe_bounds(const ConeBlock& normals, const LightCluster<L>* const* clusters, int count,
                         const Receivers& receivers, ClusterBlock<L>& block, Lanes& bounds) {
-    if (normals.any_single) detail::axis_lobe_bounds(normals, clusters, count, receivers, block, bounds);
+    if (normals.any_single) axis_lobe_bounds(normals, clusters, count, receivers, block, bounds);
     if (!normals.any_wide) return;
     alignas(32) Lanes wide, geometric;
-    detail::clamped_max_cosines(normals, block, wide);
+    clamped_max_cosines(normals, block, wide);
     geometric_bounds(clusters, count, receivers, block, geometric);
-    detail::multiply(wide, geometric, wide);
+    multiply(wide, geometric, wide);
     for (int i = 0; i < lane_count; ++i) {
         if (!normals.is_single(i)) bounds[i] = wide[i];
     }
 }
 
-}  // namespace lightcuts
+}  // namespace lightcuts::detail

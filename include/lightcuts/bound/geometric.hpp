@@ -12,9 +12,7 @@
 #include "../tree/light_cluster.hpp"
 #include "view.hpp"
 
-namespace lightcuts {
-
-namespace detail {
+namespace lightcuts::detail {
 
 /// x / d2 for a bound x, with 0 / 0 = 0: a term that is certainly zero beats a light that may be at the receiver.
 inline double over_distance2(double x, double d2) {
@@ -40,8 +38,6 @@ void fill_lanes(const LightCluster<L>* const* clusters, int count, const Receive
     repeat_last(bounds, count);
 }
 
-}  // namespace detail
-
 /// Upper bound of the attenuation of any light in the cluster.
 template <Light L>
 double attenuation_bound(const LightCluster<L>& cluster, const ClusterView& view) {
@@ -53,14 +49,14 @@ double attenuation_bound(const LightCluster<L>& cluster, const ClusterView& view
         const float nearest = round_down(std::sqrt(view.distance2) * (1.0 - 1e-7));
         const float distance = nearest > 0.0f ? nearest : 0.0f;
         if constexpr (requires { cluster.envelope.falloff_bound(distance); }) {
-            return static_cast<double>(cluster.envelope.falloff_bound(distance)) * detail::float_slack;
+            return static_cast<double>(cluster.envelope.falloff_bound(distance)) * float_slack;
         } else if constexpr (requires { light_traits<L>::falloff_bound(distance); }) {
-            return static_cast<double>(light_traits<L>::falloff_bound(distance)) * detail::float_slack;
+            return static_cast<double>(light_traits<L>::falloff_bound(distance)) * float_slack;
         } else {
             static_assert(
                 requires { L::falloff_bound(distance); },
                 "a light with falloff(d) needs falloff_bound(d_min): static, or on what its envelope() returns");
-            return static_cast<double>(L::falloff_bound(distance)) * detail::float_slack;
+            return static_cast<double>(L::falloff_bound(distance)) * float_slack;
         }
     }
 }
@@ -85,15 +81,15 @@ double emission_bound(const LightCluster<L>& cluster, const ClusterView& view) {
             const double least = -widen_cosine(max_cosine(axis, view.box), cluster.cone) - 6e-6;
             const float cos_min = to_float(least), cos_max = to_float(largest);
             if constexpr (requires { cluster.envelope.emission_bound(cos_min, cos_max); }) {
-                return static_cast<double>(cluster.envelope.emission_bound(cos_min, cos_max)) * detail::float_slack;
+                return static_cast<double>(cluster.envelope.emission_bound(cos_min, cos_max)) * float_slack;
             } else if constexpr (requires { light_traits<L>::emission_bound(cos_min, cos_max); }) {
-                return static_cast<double>(light_traits<L>::emission_bound(cos_min, cos_max)) * detail::float_slack;
+                return static_cast<double>(light_traits<L>::emission_bound(cos_min, cos_max)) * float_slack;
             } else {
                 static_assert(
                     requires { L::emission_bound(cos_min, cos_max); },
                     "a light with emission(cos) needs emission_bound(cos_min, cos_max): static, or on what its "
                     "envelope() returns");
-                return static_cast<double>(L::emission_bound(cos_min, cos_max)) * detail::float_slack;
+                return static_cast<double>(L::emission_bound(cos_min, cos_max)) * float_slack;
             }
         }
     }
@@ -104,7 +100,7 @@ template <Light L>
 double geometric_bound(const LightCluster<L>& cluster, const ClusterView& view) {
     if constexpr (cosine_emission<L> && inverse_square<L>) {
         if (is_single(cluster.cone)) return max_dot_over_distance<3>(-glm::dvec3(cluster.cone.axis), view.box).value;
-        return detail::over_distance2(emission_bound(cluster, view), view.distance2);
+        return over_distance2(emission_bound(cluster, view), view.distance2);
     } else if constexpr (OrientedLight<L>) {
         const double emission = emission_bound(cluster, view);
         return emission > 0.0 ? emission * attenuation_bound(cluster, view) : 0.0;
@@ -121,11 +117,11 @@ void geometric_bounds(const LightCluster<L>* const* clusters, int count, const R
         for (int i = 0; i < lane_count; ++i) bounds[i] = 1.0f;
     } else if constexpr (has_profile<L>) {
         const auto bound = [](const auto& cluster, const auto& view) { return geometric_bound(cluster, view); };
-        detail::fill_lanes(clusters, count, receivers, bound, bounds);
+        fill_lanes(clusters, count, receivers, bound, bounds);
     } else {
         for (int i = 0; i < lane_count; ++i) bounds[i] = block.inverse[i] * block.inverse[i] * 1.000002f;
-        if constexpr (OrientedLight<L>) { detail::multiply(block.cosines_at_lights(), bounds, bounds); }
+        if constexpr (OrientedLight<L>) { multiply(block.cosines_at_lights(), bounds, bounds); }
     }
 }
 
-}  // namespace lightcuts
+}  // namespace lightcuts::detail

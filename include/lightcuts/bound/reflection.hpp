@@ -149,14 +149,14 @@ void visit_other_bounds(const B& bound, const F& f) {
 /// intensity, shadows apart: the product of the factors' bounds. `bound`: of every surface in the box.
 template <class B, Light L>
 spectrum_of<L> reflection_bound(const B& bound, const LightCluster<L>& cluster, const Box& receivers) {
-    return detail::bound_reflection<false>(bound, cluster, view_of(cluster, receivers));
+    return detail::bound_reflection<false>(bound, cluster, detail::view_of(cluster, receivers));
 }
 
 /// As `reflection_bound`, but both cosines of diffuse surfaces and of diffuse emitters are bounded together also where
 /// normals or axes differ.
 template <class B, Light L>
 spectrum_of<L> joint_reflection_bound(const B& bound, const LightCluster<L>& cluster, const Box& receivers) {
-    return detail::bound_reflection<true>(bound, cluster, view_of(cluster, receivers));
+    return detail::bound_reflection<true>(bound, cluster, detail::view_of(cluster, receivers));
 }
 
 /// Quick bounds of up to `lane_count` clusters of one kind at one box of receivers, without iteration, in vector code:
@@ -164,7 +164,7 @@ spectrum_of<L> joint_reflection_bound(const B& bound, const LightCluster<L>& clu
 template <class B, Light L>
 void reflection_bounds(const B& bound, const LightCluster<L>* const* clusters, int count, const Box& receivers,
                        spectrum_of<L>* units) {
-    ClusterBlock<L> block(clusters, count, receivers);
+    detail::ClusterBlock<L> block(clusters, count, receivers);
     for (int i = 0; i < count; ++i) units[i] = black<spectrum_of<L>>();
     detail::add_reflection_bounds(bound, clusters, count, receivers, block, units);
 }
@@ -178,7 +178,7 @@ void reflection_bounds(const B* const* bounds, const LightCluster<L>* const* clu
     using S = spectrum_of<L>;
     detail::require_bound<B, S>();
     const auto box_of_lane = [&](int i) -> const Box& { return *receivers[i]; };
-    ClusterBlock<L> block(clusters, count, box_of_lane);
+    detail::ClusterBlock<L> block(clusters, count, box_of_lane);
     for (int i = 0; i < count; ++i) units[i] = black<S>();
     for (int lobe = 0;; ++lobe) {
         ConeBlock normals;
@@ -198,7 +198,7 @@ void reflection_bounds(const B* const* bounds, const LightCluster<L>* const* clu
         if (!any) break;
         normals.finish(count, block);
         alignas(32) Lanes cosines;
-        cosine_lobe_bounds(normals, clusters, count, box_of_lane, block, cosines);
+        detail::cosine_lobe_bounds(normals, clusters, count, box_of_lane, block, cosines);
         for (int i = 0; i < count; ++i) {
             units[i] = units[i] + detail::scale_bound(scales[static_cast<std::size_t>(i)], cosines[i]);
         }
@@ -207,10 +207,10 @@ void reflection_bounds(const B* const* bounds, const LightCluster<L>* const* clu
     alignas(32) Lanes geometric;
     for (int i = 0; i < count; ++i) {
         detail::visit_other_bounds<S>(*bounds[i], [&](const auto& part) {
-            if (!has_geometric) geometric_bounds(clusters, count, box_of_lane, block, geometric);
+            if (!has_geometric) detail::geometric_bounds(clusters, count, box_of_lane, block, geometric);
             has_geometric = true;
             if (!(geometric[i] > 0.0f)) return;
-            const S reflected = part.upper_bound(view_of(*clusters[i], *receivers[i]).box);
+            const S reflected = part.upper_bound(detail::view_of(*clusters[i], *receivers[i]).box);
             units[i] = units[i] + detail::scale_bound(reflected, geometric[i]);
         });
     }

@@ -12,7 +12,7 @@
 #include "../material/conservative_rounding.hpp"
 #include "../tree/light_cluster.hpp"
 
-namespace lightcuts {
+namespace lightcuts::detail {
 
 /// A cluster's lights as the receivers in a box see them: the box of their offsets, or of the directions towards
 /// distant lights, and how near they are. Widened by the float rounding of the directions that materials are given, so
@@ -28,9 +28,9 @@ template <Light L>
 ClusterView view_of(const LightCluster<L>& cluster, const Box& receivers) {
     ClusterView view;
     if constexpr (DirectionalLight<L>) {
-        view.box = detail::rounded_directions({glm::dvec3(cluster.box.lo), glm::dvec3(cluster.box.hi)});
+        view.box = rounded_directions({glm::dvec3(cluster.box.lo), glm::dvec3(cluster.box.hi)});
     } else {
-        view.box = detail::rounded_directions(offsets(cluster.box, receivers));
+        view.box = rounded_directions(offsets(cluster.box, receivers));
     }
     view.distance2 = min_distance2(view.box);
     view.inverse_distance = 1.0 / std::sqrt(view.distance2);
@@ -47,7 +47,7 @@ struct ClusterBlock : OffsetBlock {
 
     /// Bounds of max(0, cos) at the lights, about the reversed axes: computed when first asked for.
     const Lanes& cosines_at_lights() requires oriented {
-        if (!has_cosines_) detail::clamped_max_cosines(reversed_axes, *this, cosines_);
+        if (!has_cosines_) clamped_max_cosines(reversed_axes, *this, cosines_);
         has_cosines_ = true;
         return cosines_;
     }
@@ -78,4 +78,4 @@ private:
     bool has_cosines_ = false;
 };
 
-}  // namespace lightcuts
+}  // namespace lightcuts::detail

@@ -43,7 +43,7 @@ Estimate<forest_spectrum<Lights>> exhaustive(const Lights& lights, const Receive
             const auto& light = tree.lights()[c.light];
             using L = std::remove_cvref_t<decltype(light)>;
             LaneSpectra<S> transfer;
-            unshadowed_transfer<L>(
+            detail::unshadowed_transfer<L>(
                 receiver, 1, [&](int) -> const L& { return light; }, transfer);
             if constexpr (ClampableLight<L>) transfer[0] = detail::at_most(transfer[0], clamp.transfer);
             return finite_product(S(transfer[0] * visibility), S(detail::intensity_of(light)));

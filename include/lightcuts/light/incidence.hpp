@@ -64,6 +64,8 @@ inline constexpr bool cosine_emission = OrientedLight<L> && !ProfiledLight<L>;
 template <Light L>
 inline constexpr bool has_profile = PointLight<L> && (ProfiledLight<L> || FalloffLight<L>);
 
+namespace detail {
+
 /// Where several lights of one kind stand, side by side, and how they are turned if that matters.
 struct LightBlock {
     LaneVectors place;  ///< as `position_or_direction`
@@ -73,14 +75,14 @@ struct LightBlock {
     template <Light L>
     void set(int lane, const L& light) {
         place.set(lane, position_or_direction(light));
-        if constexpr (OrientedLight<L>) axis.set(lane, to_vec3(detail::axis_of(light)));
+        if constexpr (OrientedLight<L>) axis.set(lane, to_vec3(axis_of(light)));
     }
 
     /// Repeats the last of `count` lights in the lanes behind it. pre: 0 < count <= lane_count
     template <Light L>
     void finish(int count) {
-        detail::repeat_last(place, count);
-        if constexpr (OrientedLight<L>) detail::repeat_last(axis, count);
+        repeat_last(place, count);
+        if constexpr (OrientedLight<L>) repeat_last(axis, count);
     }
 };
 
@@ -95,7 +97,6 @@ struct IncidenceBlock {
 template <Light L>
     requires(!has_profile<L>)
 LIGHTCUTS_VECTORIZED void incidences(const LightBlock& lights, const glm::vec3& point, IncidenceBlock& arriving) {
-    using detail::select, detail::smaller, detail::larger;
     if constexpr (DirectionalLight<L>) {
         arriving.to_light = lights.place;
         for (int i = 0; i < lane_count; ++i) arriving.geometric[i] = arriving.in_range[i] = 1.0f;
@@ -106,7 +107,7 @@ LIGHTCUTS_VECTORIZED void incidences(const LightBlock& lights, const glm::vec3& 
             const float d2 = x * x + y * y + z * z;
             const bool in_range = smaller(d2 - 1e-20f, 1e20f - d2) > 0.0f;
             // Materials are promised unit vectors, whatever becomes of the result.
-            const float inverse = detail::inverse_sqrt(select(in_range, d2, 1.0f));
+            const float inverse = inverse_sqrt(select(in_range, d2, 1.0f));
             const float ux = select(in_range, x * inverse, 0.0f), uy = select(in_range, y * inverse, 0.0f),
                         uz = select(in_range, z * inverse, 1.0f);
             float geometric = inverse * inverse;
@@ -122,5 +123,7 @@ LIGHTCUTS_VECTORIZED void incidences(const LightBlock& lights, const glm::vec3& 
         }
     }
 }
+
+}  // namespace detail
 
 }  // namespace lightcuts

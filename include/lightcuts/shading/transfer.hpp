@@ -20,6 +20,8 @@ spectrum_of<L> unshadowed_transfer(const Receiver<M>& receiver, const L& light) 
     return finite(S(receiver.material.evaluate(arriving.to_light) * static_cast<float>(geometric)));
 }
 
+namespace detail {
+
 /// Unshadowed transfer of the first `count` lights of a block, transfer[i] for lane i, in float vector code where the
 /// kinds of light and material allow it. `light_of(i)` is the light itself, for where they do not. pre: 0 < count <=
 /// lane_count
@@ -29,7 +31,7 @@ void unshadowed_transfer(const Receiver<M>& receiver, const LightBlock& lights, 
     using S = spectrum_of<L>;
     if constexpr (has_profile<L>) {
         for (int i = 0; i < count; ++i) {
-            transfer[static_cast<std::size_t>(i)] = unshadowed_transfer<M, L>(receiver, light_of(i));
+            transfer[static_cast<std::size_t>(i)] = lightcuts::unshadowed_transfer<M, L>(receiver, light_of(i));
         }
     } else {
         IncidenceBlock arriving;
@@ -40,7 +42,7 @@ void unshadowed_transfer(const Receiver<M>& receiver, const LightBlock& lights, 
             if (arriving.in_range[i] != 0.0f) {
                 t = finite(S(t * arriving.geometric[i]));
             } else {
-                t = unshadowed_transfer<M, L>(receiver, light_of(i));
+                t = lightcuts::unshadowed_transfer<M, L>(receiver, light_of(i));
             }
         }
     }
@@ -55,5 +57,7 @@ void unshadowed_transfer(const Receiver<M>& receiver, int count, const LightOf& 
     lights.template finish<L>(count);
     unshadowed_transfer<L>(receiver, lights, count, light_of, transfer);
 }
+
+}  // namespace detail
 
 }  // namespace lightcuts
