@@ -16,17 +16,19 @@
 
 namespace lightcuts {
 
-/// A visibility oracle over an Embree scene of opaque geometry (version 3 or 4). Refers to the scene, which must be
-/// committed and outlive it. Safe to call from several threads.
-/// Give the scene the flag RTC_SCENE_FLAG_ROBUST: without it, rays that meet an edge may slip between its two
-/// triangles, and light leaks through closed walls in lines. Rays take somewhat longer for it. `many` traces incoherent
-/// streams with Embree 3; version 4 has no streams, and rays go one by one.
+/// A visibility oracle over a scene of Embree 3 or 4 whose geometry is opaque: a light is visible unless something
+/// stands between it and the receiver's shadow origin. A ScalarOracle and a BatchedOracle.
+///
+/// Refers to the scene, which must be committed and outlive the oracle. Give it the flag RTC_SCENE_FLAG_ROBUST: without
+/// it a ray that meets an edge may pass between the two triangles there, and light leaks through closed walls along
+/// lines; with it rays take somewhat longer. threads: safe to call from several.
 class EmbreeOracle {
 public:
-    /// `shorten`: the fraction of a shadow ray left out at the light's end, so that lights that lie on a surface are
-    /// not hidden by it.
+    /// An oracle over `scene`. `shorten`: the fraction of each shadow ray that is left out at the light's end, so that
+    /// a light on a surface is not hidden by that surface; in [0, 1). Rays towards distant lights have no end.
     explicit EmbreeOracle(RTCScene scene, float shorten = 1e-4f) : scene_(scene), reach_(1.0f - shorten) {}
 
+    /// True if nothing stands between `receiver.shadow_origin` and `light`. cost: one ray
     template <class R, Light L>
     bool operator()(const R& receiver, const L& light) const {
         RTCRay ray;
@@ -34,11 +36,16 @@ public:
         return !occluded(ray);
     }
 
+    /// Traces one shadow ray for each query: answers[i] is 0 if something stands between the ends of queries[i], else
+    /// 1. Embree 3 traces up to 256 at a time as an incoherent stream; Embree 4 has no streams and traces one by one.
+    /// pre: answers.size() >= queries.size()
     void many(std::span<const VisibilityQuery> queries, std::span<float> answers) const {
         many(queries, answers, [](const VisibilityQuery& q) { return q.to; });
     }
-    /// The same with rays that end elsewhere: before the surface of an emitter, say. `end_of(query)` is not called for
-    /// distant lights. A ray that ends where it starts meets nothing.
+    /// Traces one shadow ray for each query from `query.from` to `end_of(query)` in place of the light's position: to a
+    /// point before an emitter's surface, say. answers[i] is 0 if something stands between the ends of ray i, else 1.
+    /// Rays towards distant lights have no end: `end_of` is not called for them. A ray that ends where it starts meets
+    /// nothing. Streams are those of `many` without `end_of`. pre: answers.size() >= queries.size()
     template <class EndOf>
     void many(std::span<const VisibilityQuery> queries, std::span<float> answers, const EndOf& end_of) const {
         constexpr std::size_t stream = 256;
@@ -55,13 +62,13 @@ public:
     }
 
 private:
-    /// Field by field: a copy of what was just written in pieces stalls.
+    /// Sets up `ray`, field by field: copying a whole ray right after its fields were written stalls the processor.
     void aim(RTCRay& ray, const glm::vec3& from, const glm::vec3& to, bool distant) const {
         const glm::vec3 direction = distant ? to : to - from;
         ray.org_x = from.x;
         ray.org_y = from.y;
         ray.org_z = from.z;
-        // Of no length: not active.
+        // A ray of no length is made inactive: its interval is empty.
         ray.tnear = direction == glm::vec3(0.0f) ? 2.0f : 0.0f;
         ray.dir_x = direction.x;
         ray.dir_y = direction.y;

@@ -18,8 +18,9 @@ concept BoundPolicy = requires(const P& policy, const B& bound, const C& cluster
     { policy.quick(bound, cluster, receivers) } -> std::convertible_to<typename C::spectrum>;
 };
 
-/// A policy with an expensive second opinion, `tight(...)`, with the arguments and result of `quick`: asked for before
-/// a cluster is split whose bound is above the threshold by a factor below `tight_band`.
+/// A BoundPolicy with a second, tighter and more expensive bound: `tight(bound, cluster, receivers)` has the meaning of
+/// `quick`. It is formed only for a cluster that would be split next and whose quick bound is above the threshold by a
+/// factor below `tight_band`.
 template <class P, class B, class C>
 concept TwoStagePolicy = BoundPolicy<P, B, C> && P::two_stages &&
     requires(const P& policy, const B& bound, const C& cluster, const Box& receivers) {

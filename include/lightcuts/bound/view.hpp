@@ -23,7 +23,8 @@ struct ClusterView {
     double inverse_distance;  ///< 1 / sqrt(distance2), infinite if that is 0
 };
 
-/// pre: `cluster` holds a light; `receivers` is not empty, and `box_of` for one of them.
+/// What the receivers in a box see of a cluster. pre: `cluster` holds a light; `receivers` is not empty, and is
+/// `box_of` the position for a single receiver.
 template <Light L>
 ClusterView view_of(const LightCluster<L>& cluster, const Box& receivers) {
     ClusterView view;

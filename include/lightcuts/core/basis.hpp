@@ -20,12 +20,14 @@ struct Basis {
         y = {b, sign + axis.y * axis.y * a, -axis.y};
     }
 
-    /// From coordinates in this basis, and to them.
+    /// The vector whose coordinates along x, y and z are those of `v`.
     glm::dvec3 out(const glm::dvec3& v) const { return v.x * x + v.y * y + v.z * z; }
+    /// The coordinates of `v` along x, y and z.
     glm::dvec3 in(const glm::dvec3& v) const { return {glm::dot(v, x), glm::dot(v, y), glm::dot(v, z)}; }
 };
 
-/// The unit vector at `cosine` to z, `turn` of a full circle around it.
+/// The unit vector whose angle to +z has the cosine `cosine`, at the azimuth `turn`, in full circles from +x towards
+/// +y.
 inline glm::dvec3 around_z(double cosine, double turn) {
     const double sine = std::sqrt(std::fmax(0.0, 1.0 - cosine * cosine)), angle = 2.0 * std::numbers::pi * turn;
     return {sine * std::cos(angle), sine * std::sin(angle), cosine};

@@ -25,15 +25,18 @@ inline Cone cone_of(const glm::vec3& axis) { return {axis, 0.0f}; }
 /// The cone of every direction.
 inline Cone whole_sphere() { return {{0.0f, 0.0f, 1.0f}, 1.0f}; }
 
+/// True iff the cone holds no direction.
 inline bool is_empty(const Cone& c) { return c.sin2_half < 0.0f; }
+/// True iff the cone holds exactly one direction.
 inline bool is_single(const Cone& c) { return c.sin2_half == 0.0f; }
+/// True iff the cone holds every direction.
 inline bool is_whole_sphere(const Cone& c) { return c.sin2_half >= 1.0f; }
 
 /// The axis in double, with length 1 to double precision: as stored it is off by up to 1e-7, too much for
 /// `widen_cosine` where the cosine is near -1. pre: not empty
 inline glm::dvec3 unit_axis(const Cone& c) { return glm::normalize(glm::dvec3(c.axis)); }
 
-/// The opposite directions.
+/// The cone of the opposites of the directions in `c`; that of no direction is itself.
 inline Cone negated(const Cone& c) { return {-c.axis, c.sin2_half}; }
 
 /// 1 - cos(beta), without cancellation; pre: not empty.

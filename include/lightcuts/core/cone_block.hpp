@@ -65,7 +65,7 @@ namespace detail {
 
 /// Upper bounds of max(0, cos(max(0, theta - beta))), where theta is the angle from a cone's axis to any point of the
 /// box beside it and beta the cone's half-angle. For one direction that is the largest numerator over the least
-/// distance, whatever stands in other lanes: who needs a tighter bound forms it together with other factors.
+/// distance, whatever stands in other lanes; a tighter bound is formed jointly with other factors.
 LIGHTCUTS_VECTORIZED inline void clamped_max_cosines(const ConeBlock& cones, const OffsetBlock& b, Lanes& cosines) {
     const LaneSupport& s = cones.support;
     for (int i = 0; i < lane_count; ++i) {

@@ -55,7 +55,7 @@ inline bool is_finite(const glm::vec3& v) {
     return finite(v.x) && finite(v.y) && finite(v.z);
 }
 
-/// True iff `v` is of unit length, within 1e-4 of its square; no vector with a coordinate that is no number is.
+/// True iff the squared length of `v` is 1 within 1e-4; false if a coordinate is NaN.
 inline bool is_unit(const glm::vec3& v) {
     const float excess = v.x * v.x + v.y * v.y + v.z * v.z - 1.0f;
     return excess > -1e-4f && excess < 1e-4f;

@@ -7,6 +7,7 @@
 
 namespace lightcuts {
 
+/// When a lightcut is fine enough, and what may be clamped.
 struct LightcutOptions {
     /// Every cluster's error bound is at most this fraction of the estimated total, in every channel. 0.02 is the
     /// least change that people see. It bounds each cluster, not their sum.
@@ -23,7 +24,8 @@ struct LightcutOptions {
     float adaptation = 0.0f;
     /// Seed of the choice among several representatives of a cluster.
     std::uint64_t seed = 1;
-    /// See RefinementOptions.
+    /// A round splits clusters whose priority is at least this fraction of the largest finite one: 1 splits one at a
+    /// time, the papers' order; 0.1 makes a tenth of the rounds for under one per cent more clusters.
     double round_fraction = 0.1;
     /// Limits what lights whose kind is a ClampableLight add. Off by default.
     ClampingOptions clamp{};

@@ -70,6 +70,7 @@ enum class StopReason : std::uint8_t {
     unfinished,  ///< the caller stopped early, for instance on a time budget
 };
 
+/// When a refinement ends, and how many nodes its rounds split.
 struct RefinementOptions {
     /// Largest number of nodes in the cut; the starting frontier is kept even if it is larger.
     std::size_t max_nodes = (std::numeric_limits<std::size_t>::max)();

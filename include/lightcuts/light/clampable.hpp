@@ -13,7 +13,8 @@ concept ClampableLight = Light<L> &&(
     requires { requires std::bool_constant<L::clampable>::value; } ||
     requires { requires std::bool_constant<light_traits<L>::clampable>::value; });
 
-/// A light of kind `L` with that mark: a kind of its own, with a tree of its own.
+/// A light of kind `L` whose contributions may be clamped: a ClampableLight. It is a kind of its own, so that clampable
+/// lights and others are in different trees.
 template <class L>
 struct Clampable : L {
     static constexpr bool clampable = true;

@@ -77,7 +77,7 @@ LIGHTCUTS_VECTORIZED inline void clamped_max_cosines(const glm::vec3& v, const D
     }
 }
 
-/// Lower bounds of the same. 0 for a cap that is not narrow.
+/// Lower bounds of max(0, cos) between unit `v` and the directions of each cap. 0 for one that is not narrow.
 LIGHTCUTS_VECTORIZED inline void clamped_min_cosines(const glm::vec3& v, const DirectionCaps& caps, Lanes& cosines) {
     for (int i = 0; i < lane_count; ++i) {
         const auto [along, beside] = angle_from(caps, i, v);

@@ -28,7 +28,7 @@ struct HalfVector {
     double facing;  ///< i . h, the cosine for Fresnel's term
 };
 
-/// Lower bounds of the same over many directions.
+/// Lower bounds of a HalfVector's sin2 and facing over the directions of one box.
 struct HalfVectorRange {
     double sin2;
     double facing;

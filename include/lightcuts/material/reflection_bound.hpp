@@ -28,8 +28,9 @@ concept BoundsDirections = Spectrum<S> && requires(const B& b, const OffsetBox& 
     { b.upper_bound(box) } -> std::same_as<S>;
 };
 
-/// Has a second, cheaper bound: as valid, less tight, without iteration, and for several boxes at once.
-/// `quick_upper_bounds(offsets, bounds)` sets bounds[i] for the box in lane i of `offsets`.
+/// Bounds what some surfaces reflect, by directions, in a second, cheaper way besides `upper_bound`: as valid, less
+/// tight, without iteration, and for several boxes at once. `quick_upper_bounds(offsets, bounds)` sets bounds[i] to a
+/// bound over the box in lane i of `offsets`.
 template <class B, class S>
 concept QuicklyBoundsDirections = BoundsDirections<B, S> &&
     requires(const B& b, const OffsetBlock& offsets, LaneSpectra<S>& bounds) {

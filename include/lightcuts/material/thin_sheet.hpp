@@ -62,7 +62,7 @@ private:
         }
     }
 
-    /// A light is on one side only.
+    /// Channel-wise maximum: a light is on one side only, so that the larger bound holds for both.
     static S larger(const S& a, const S& b) {
         return make_spectrum<S>([&](int c) { return detail::larger(channel(a, c), channel(b, c)); });
     }

@@ -35,7 +35,7 @@ constexpr std::uint32_t scrambled_upwards(std::uint32_t x, std::uint32_t seed) {
     return x;
 }
 
-/// The same of the bits of a fraction x / 2^32: every bit is flipped by a hash of the bits above it.
+/// Owen's nested uniform scrambling of the fraction x / 2^32: every bit is flipped by a hash of the bits above it.
 constexpr std::uint32_t nested_scramble(std::uint32_t x, std::uint32_t seed) {
     return reversed_bits(scrambled_upwards(reversed_bits(x), seed));
 }

@@ -7,9 +7,10 @@
 
 namespace lightcuts::detail {
 
-/// Walks over the pixels of a latitude-longitude map so that any consecutive ones lie close together on the sphere:
-/// rectangles are halved across their longer side, as long as it is on the sphere, and the half that lies closer to
-/// the last pixel is walked first. `visit(x, y)` is called once for each pixel. cost: O(pixels)
+/// Visits the pixels of a latitude-longitude map in an order in which consecutive ones lie close together on the
+/// sphere. The map is halved again and again: a rectangle of pixels across the side that is longer on the sphere, where
+/// a row's length shrinks with the cosine of its latitude; the half that is closer to the pixel visited last comes
+/// first.
 template <class Visit>
 class SphericalOrder {
 public:
@@ -39,7 +40,7 @@ private:
         walk(low_first ? low : high);
         walk(low_first ? high : low);
     }
-    /// Of the latitudes of the rows of `r`.
+    /// The largest cosine of a latitude within the rows of `r`.
     double widest_cosine(const Rectangle& r) const {
         const std::uint32_t equator = height_ / 2;
         if (r.y0 <= equator && equator <= r.y1) return 1.0;
@@ -47,11 +48,13 @@ private:
     }
 
     std::uint32_t height_;
-    double across_, up_;  ///< angles of a pixel, at the equator
+    double across_, up_;  ///< width and height of a pixel at the equator, radians
     Visit& visit_;
     std::uint32_t x_ = 0, y_ = 0;  ///< the last pixel
 };
 
+/// Calls `visit(x, y)` once for each pixel of a latitude-longitude map of `width` x `height` pixels, in an order in
+/// which consecutive ones lie close together on the sphere. pre: width > 0, height > 0. cost: O(pixels)
 template <class Visit>
 void visit_in_spherical_order(std::uint32_t width, std::uint32_t height, Visit&& visit) {
     SphericalOrder<std::remove_reference_t<Visit>>(width, height, visit);

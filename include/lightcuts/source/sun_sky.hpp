@@ -17,7 +17,7 @@
 
 namespace lightcuts {
 
-/// Where the sun stands, and how hazy the air is.
+/// Where the sun stands, and how hazy the air is: what a SunSky is made of.
 struct SunPosition {
     double elevation = 45.0;  ///< degrees above the horizon, 0 to 90
     double azimuth = 0.0;     ///< degrees from +z towards +x; +y is up
@@ -27,13 +27,16 @@ struct SunPosition {
 /// A clear sky with a sun [Preetham, Shirley and Smits 1999, A practical analytic model for daylight] over level,
 /// diffuse ground, which they light.
 ///
-/// Radiances are linear Rec. 709, W/(m^2 sr): luminance / 179 lm/W, the efficacy that Radiance's pictures use too, so
-/// that sun and sky keep their ratio and their sum is about what daylight carries.
+/// Radiances are linear Rec. 709, W/(m^2 sr): the model's luminance divided by one luminous efficacy, 179 lm/W, that
+/// of the pictures of the renderer Radiance. Sun and sky keep their ratio, and their sum is about that of daylight.
+/// +y is up. Immutable; safe to share between threads.
 class SunSky {
 public:
-    /// `ground_albedo`: of the ground, 0 to 1; 0: all is black below the horizon.
-    /// throws: invalid_input if the sun is below the horizon (the model ends there), the turbidity not in [2, 10] or
-    /// the albedo not in [0, 1]. cost: a millisecond, for ground that is not black.
+    /// The sky of a sun at `position`. `ground_albedo`: the share of light that the ground reflects, in each channel
+    /// from 0 to 1; with 0 everything below the horizon is black.
+    /// throws: invalid_input if the elevation is not in [0, 90] degrees (the model ends at the horizon), the azimuth is
+    /// not finite, the turbidity is not in [2, 10] or the albedo not in [0, 1].
+    /// cost: a millisecond for ground that is not black, else microseconds.
     explicit SunSky(const SunPosition& position, const glm::vec3& ground_albedo = glm::vec3(0.0f))
         : towards_sun_(direction_of(position)), sky_(zenith_angle(position), position.turbidity),
           sun_(glm::vec3(detail::sun_luminance(zenith_angle(position), position.turbidity) / efficacy)) {
@@ -49,21 +52,22 @@ public:
         }
     }
 
-    /// Unit.
+    /// The unit vector towards the center of the sun's disc.
     const glm::dvec3& towards_sun() const { return towards_sun_; }
-    /// Of the sun's disc, the same all over it.
+    /// The radiance of the sun's disc, W/(m^2 sr), without the sky in front of it; the same all over the disc.
     const glm::vec3& sun_radiance() const { return sun_; }
-    /// Irradiance on a plane that faces the sun, W/m^2, of the disc alone.
+    /// The irradiance that the sun's disc alone causes on a plane that faces it, W/m^2.
     glm::vec3 sun_irradiance() const { return sun_ * static_cast<float>(sun_solid_angle); }
-    /// Of the sky in `direction`, a unit vector, without the sun's disc.
+    /// The radiance of the sky in `direction`, W/(m^2 sr), without the sun's disc; black at and below the horizon.
+    /// pre: `direction` is a unit vector
     glm::vec3 sky_radiance(const glm::dvec3& direction) const {
         if (!(direction.y > 0.0)) return glm::vec3(0.0f);
         const double cosine = glm::dot(direction, towards_sun_);
         const double to_sun = std::acos(cosine < -1.0 ? -1.0 : cosine > 1.0 ? 1.0 : cosine);
         return glm::vec3(sky_.rgb(direction.y, to_sun) / efficacy);
     }
-    /// Irradiance on a level plane, W/m^2, of the sky without the sun's disc. Accurate to 1e-4.
-    /// cost: 16,384 times sky_radiance
+    /// The irradiance that the sky without the sun's disc causes on a level plane, W/m^2, accurate to 1e-4.
+    /// cost: that of 16,384 calls of sky_radiance
     glm::vec3 sky_irradiance() const {
         constexpr int rings = 128, steps = 128;
         const double azimuth = std::atan2(towards_sun_.x, towards_sun_.z);
@@ -83,17 +87,22 @@ public:
         }
         return glm::vec3(sum * (std::numbers::pi / steps));
     }
-    /// Of the ground, the same in all directions below the horizon: albedo / pi x the irradiance of sun and sky on it.
+    /// The radiance of the ground, W/(m^2 sr): albedo / pi x the irradiance of sun and sky on a level plane. The same
+    /// in all directions below the horizon.
     const glm::vec3& ground_radiance() const { return ground_; }
-    /// What an eye sees in `direction`, a unit vector.
+    /// The radiance that arrives from `direction`, W/(m^2 sr): of the ground at and below the horizon, above it of the
+    /// sky, to which that of the sun is added within its disc. pre: `direction` is a unit vector
     glm::vec3 radiance(const glm::dvec3& direction) const {
         if (!(direction.y > 0.0)) return ground_;
         const bool on_disc = glm::dot(direction, towards_sun_) > std::cos(sun_radius);
         return on_disc ? sky_radiance(direction) + sun_ : sky_radiance(direction);
     }
 
-    static constexpr double efficacy = 179.0;                              ///< lm/W
-    static constexpr double sun_radius = 0.2665 * std::numbers::pi / 180;  ///< radians
+    /// Luminous efficacy, lm/W: what the model's luminance is divided by.
+    static constexpr double efficacy = 179.0;
+    /// Angle between the center and the edge of the sun's disc, radians.
+    static constexpr double sun_radius = 0.2665 * std::numbers::pi / 180;
+    /// Solid angle of the sun's disc, sr.
     static constexpr double sun_solid_angle = std::numbers::pi * sun_radius * sun_radius *
                                               (1.0 - sun_radius * sun_radius / 12.0);
 
@@ -119,7 +128,8 @@ private:
     glm::vec3 ground_{0.0f};
 };
 
-/// `count` distant lights spread evenly over the sun's disc, of equal power; their irradiance is the sun's.
+/// `count` distant lights of equal irradiance whose directions are spread over the sun's disc with uniform density.
+/// Their irradiances, W/m^2 on planes that face them, add up to `daylight.sun_irradiance()`. cost: O(count)
 template <Sampler Sequence = ScrambledSobol>
 std::vector<DistantLight<>> sun_lights(const SunSky& daylight, std::size_t count = 64, const Sequence& sampler = {}) {
     const glm::dvec3 axis = daylight.towards_sun();
@@ -137,8 +147,11 @@ std::vector<DistantLight<>> sun_lights(const SunSky& daylight, std::size_t count
     return lights;
 }
 
-/// `count` distant lights of equal power that stand for the sky without the sun's disc: `environment_lights` of it,
-/// at `rows` rows of latitude.
+/// `count` distant lights of equal power (sum of channels) that stand for the sky without the sun's disc. The sky is
+/// evaluated at the pixels of a latitude-longitude map of 2 `rows` x `rows`, whose sphere is cut into `count` compact
+/// regions of equal power; each becomes one light within its region (`environment_lights`). Together they have the
+/// irradiance of that map, W/m^2, channel by channel.
+/// throws: invalid_input if `rows` is 0. cost: O(rows^2 + count), and 12 bytes of temporary memory a pixel
 template <Sampler Sequence = CenteredSobol>
 std::vector<DistantLight<>> sky_lights(const SunSky& daylight, std::size_t count, std::uint32_t rows = 256,
                                        const Sequence& sampler = {}) {
@@ -155,8 +168,10 @@ std::vector<DistantLight<>> sky_lights(const SunSky& daylight, std::size_t count
     return environment_lights(EnvironmentMap(2 * rows, rows, source), count, sampler);
 }
 
-/// `count` distant lights of equal power that stand for the ground, from below the horizon. They are spread evenly, on
-/// a spiral; on a plane that looks down their irradiance is exactly pi x the ground's radiance.
+/// `count` distant lights of equal irradiance that stand for the ground: their light comes from below the horizon, out
+/// of directions on a spiral that covers the lower hemisphere with uniform density. Their irradiance on a level plane
+/// that looks down is exactly pi x `daylight.ground_radiance()`, W/m^2. Black ground makes black lights, which trees
+/// leave out. cost: O(count)
 template <Sampler Sequence = CenteredSobol>
 std::vector<DistantLight<>> ground_lights(const SunSky& daylight, std::size_t count, const Sequence& sampler = {}) {
     const double golden_turn = 2.0 * std::numbers::pi * (2.0 - std::numbers::phi);

@@ -31,9 +31,9 @@ struct ScatteredParticle {
 };
 
 /// What particles need to know of a scene. It is used by several threads if the executor has them.
-/// - `intersect(origin, direction)`: what is hit first, something that tests true and can be dereferenced if anything
-/// is
-///   (a std::optional, a pointer). It has `position` and `normal`, which is unit and on the side that was hit.
+/// - `intersect(origin, direction)`: the first hit, as a std::optional, a pointer or another type that tests true and
+///   can be dereferenced iff something is hit. A hit has `position` and `normal`, which is unit and on the side that
+///   was hit.
 /// - `diffuse_albedo(hit)`: of the diffuse part of its BRDF, in [0, 1]
 /// - `scatter(hit, direction, u)`: a direction drawn from the whole BRDF for a particle that arrives along `direction`;
 ///   u: three numbers in [0, 1), the first two for the direction and the third for the choice of a lobe
@@ -139,8 +139,8 @@ void follow(const Scene& scene, const Emission& emission, const Sequence& sample
         }
         for (std::uint32_t bounce = 0; bounce < longest_path; ++bounce) {
             const std::array<double, 4> drawn = four_numbers(4 + 4 * bounce);
-            // One number decides on both the light, on either side, and the way on: each alone is right, and fewer ways
-            // end in vain.
+            // One number decides whether a light is left, on either side, and whether the particle goes on: each
+            // decision has its right probability, and fewer particles end without having left a light.
             const double roulette = drawn[3];
             leave_light(scene, *hit, power, roulette, tally.lights);
             const auto below_one = [&](std::size_t d) {

@@ -21,16 +21,16 @@
 
 namespace lightcuts {
 
-/// How light trees are built.
+/// What the nodes of a LightTree are given besides the tree's topology.
 struct LightTreeOptions {
-    /// Most representatives a node may have, 1 to 32. 1 is the least memory; 8 turns the bands that one can leave
-    /// in penumbrae into noise.
+    /// Most representatives of a node, 1 to 32. With 1, which takes the least memory, all receivers see a cluster by
+    /// the same light, and penumbrae may show bands; with 8 the bands are noise.
     unsigned representatives = 1;
-    /// Representatives are chosen by a hash of it: trees that differ in nothing else choose independently.
+    /// Seed of the random choice of representatives. Trees that differ only in it choose independently.
     std::uint64_t seed = 1;
 };
 
-/// The default builder of light trees: from the top down by `Binned`.
+/// The default builder of light trees: `divide` by the splitter `Binned`, from the top down. cost: O(N log N)
 struct BinnedBuilder {
     template <class Item, Executor E>
     ClusterTree operator()(std::span<const Item> items, const E& execute) const {
@@ -55,7 +55,7 @@ concept LightsOf = std::ranges::contiguous_range<R> && std::ranges::sized_range<
 
 }  // namespace detail
 
-/// Stands for the light tree of a type that is no light; does not compile, and says what the type lacks.
+/// The light tree of a type that is not a Light: it does not compile, and the message says what the type lacks.
 template <class L>
 class LightTree {
     static_assert(!detail::are_scattered<L>,
@@ -73,9 +73,11 @@ public:
     explicit LightTree(const Arguments&...) {}
 };
 
-/// A cluster tree over lights of one kind. Refers to the lights, which must outlive it, and never copies them.
-/// Lights of zero intensity are left out.
+/// A binary tree over lights of one kind [Lightcuts 2005, section 3]: a topology, and for each node the cluster of the
+/// lights below it and the lights that may represent it. Refers to the lights, which must outlive it and stay where
+/// they are; copies none. Lights of zero intensity are left out.
 /// memory: for float RGB and one representative 88 bytes an omni light, 120 an oriented one.
+/// threads: safe to read from several.
 template <Light L>
 class LightTree<L> {
     static_assert(
@@ -98,12 +100,12 @@ public:
     /// A tree of no lights.
     LightTree() = default;
 
-    /// A tree cannot be copied: a copy would refer to the lights of the original, which a copy of what holds both would
-    /// not take along. Move it, share it by reference, or build another from the other lights.
+    /// Deleted: a copy would refer to the original's lights, even where an object that holds lights and tree is copied
+    /// with both. Move the tree, share it by reference, or build another over the copied lights.
     LightTree(const LightTree&) = delete;
     LightTree& operator=(const LightTree&) = delete;
-    /// The lights must stay where they are; a std::vector that is moved keeps them there. What was moved from is a tree
-    /// of no lights. Forests that refer to it do not follow.
+    /// Takes over the tree of `other`, which becomes a tree of no lights. The lights must stay where they are; those of
+    /// a std::vector do when the vector is moved. A LightForest that refers to `other` goes on referring to it.
     LightTree(LightTree&& other) noexcept { *this = std::move(other); }
     LightTree& operator=(LightTree&& other) noexcept {
         lights_ = std::exchange(other.lights_, {});
@@ -114,9 +116,12 @@ public:
         return *this;
     }
 
-    /// Builds the topology by `builder(items, executor) -> ClusterTree`, then what the nodes know.
+    /// Builds a tree over `lights`: its topology is what `builder(items, execute)` returns, a binary ClusterTree over
+    /// the lights of positive intensity; then clusters and representatives of all nodes are computed.
     /// throws: invalid_input naming the first light whose intensity is negative or not finite, whose position or
-    /// direction is not finite, or whose axis or direction is not of unit length.
+    /// direction is not finite, or whose axis or direction is not of unit length; or if `options.representatives` is
+    /// not in 1 to 32, if there are more than 2^30 lights, or if the builder's tree is not binary.
+    /// cost: that of the builder, by default O(N log N), and O(N).
     template <class Builder = BinnedBuilder, Executor E = Sequential>
     explicit LightTree(std::span<const L> lights, const LightTreeOptions& options = {}, const Builder& builder = {},
                        const E& execute = {})
@@ -129,7 +134,9 @@ public:
         update();
     }
 
-    /// Builds the tree of a std::vector, a std::array, an array or another contiguous range that outlives the tree.
+    /// Builds a tree over the lights of a std::vector, a std::array, an array or another contiguous range, which must
+    /// outlive the tree. throws: invalid_input where the constructor from a span does.
+    /// cost: that of the builder, by default O(N log N), and O(N).
     template <detail::LightsOf<L> R, class Builder = BinnedBuilder, Executor E = Sequential>
         requires(!std::same_as<R, std::span<const L>>)
     explicit LightTree(const R& lights, const LightTreeOptions& options = {}, const Builder& builder = {},
@@ -137,15 +144,16 @@ public:
         : LightTree(std::span<const L>(std::ranges::data(lights), std::ranges::size(lights)), options, builder,
                     execute) {}
 
-    /// Deleted: a tree refers to its lights, and these would be gone. Keep them in a variable.
+    /// Deleted: a tree refers to its lights, and those of a temporary would be gone. Keep them in a variable.
     template <detail::LightsOf<L> R, class... Rest>
         requires(!std::ranges::borrowed_range<R>)
     explicit LightTree(const R&&, const Rest&...) = delete;
 
-    /// Brings boxes, cones, intensities and representatives up to date after lights moved, turned or dimmed in
-    /// place. The topology stays: rebuild when clusters have drifted apart. cost: O(N).
-    /// throws: invalid_input as the constructor does; the tree then is as it was.
-    /// pre: the same lights are lit as when the tree was built.
+    /// Computes the clusters and representatives of all nodes anew after lights were moved, turned or dimmed in place.
+    /// The topology stays: build another tree where lights of one cluster have moved far apart. cost: O(N)
+    /// throws: invalid_input naming the first light whose intensity is negative or not finite, whose position or
+    /// direction is not finite, or whose axis or direction is not of unit length; the tree then is as it was.
+    /// pre: the lights of positive intensity are the same as when the tree was built.
     void refit() {
         for (node_index n = 0; n < tree_.size(); ++n) {
             if (tree_.is_leaf(n)) checked_item(lights_[tree_.item(n)], tree_.item(n));
@@ -153,21 +161,22 @@ public:
         update();
     }
 
-    /// True if no light is lit.
+    /// True if no light has a positive intensity: the tree has no nodes.
     bool empty() const { return tree_.empty(); }
-    /// The caller's lights, also those that are dark.
+    /// The caller's lights, including those of zero intensity.
     std::span<const L> lights() const { return lights_; }
-    /// The tree without what its nodes know; its items are indices of lights.
+    /// The nodes and how they are linked; the item of a leaf is an index into `lights()`.
     const ClusterTree& topology() const { return tree_; }
-    /// What each node knows, in node order.
+    /// For each node of the topology, in post-order, the box, axes, envelope and summed intensity of the lights below
+    /// it.
     std::span<const cluster> clusters() const { return clusters_; }
-    /// Which lights may stand for each node.
+    /// For each node the leaves whose lights may represent it.
     const Representatives& representatives() const { return representatives_; }
-    /// A cut of the whole tree of at most 32 clusters of about equal power, from which to refine: nearly every cut lies
-    /// below it. Neighbors stand side by side.
+    /// A cut of the whole tree into at most 32 clusters of about equal power, in post-order: where refinement starts,
+    /// since nearly every lightcut lies below it.
     std::span<const node_index> start() const { return start_; }
 
-    /// Bytes held, not counting the caller's lights.
+    /// Bytes of heap memory that topology, clusters and representatives hold. The lights are the caller's.
     std::size_t memory_bytes() const {
         return tree_.words().capacity() * sizeof(std::uint32_t) + clusters_.capacity() * sizeof(cluster) +
                representatives_.memory_bytes();
@@ -182,8 +191,8 @@ private:
         LIGHTCUTS_THROW(invalid_input("light " + std::to_string(index) + ": " + what));
     }
 
-    /// What the nodes know, of the lights as they are now. One pass over all of it: `summarize` once for extents and
-    /// once for sums takes a seventh longer.
+    /// Computes the clusters and representatives from the lights as they are now. One pass over all: `summarize` once
+    /// for extents and once for sums takes a seventh longer.
     void update() {
         constexpr int channels = channels_of<spectrum>;
         using Sums = std::array<double, static_cast<std::size_t>(channels)>;

@@ -28,7 +28,8 @@ public:
 
     Representatives() = default;
 
-    /// Chooses representatives; see `choose`.
+    /// Chooses the representatives of all nodes of `tree` as `choose` does, whose arguments and errors are the same,
+    /// and keeps no spare storage.
     Representatives(const ClusterTree& tree, std::span<const double> weights, unsigned limit, std::uint64_t seed) {
         choose(tree, weights, limit, seed);
         leaves_.shrink_to_fit();
