@@ -52,7 +52,7 @@ RTCScene make_scene(RTCDevice device) {
 Receiver receiver_at(std::size_t x, std::size_t y) {
     const auto along = [](std::size_t texel) { return edge * (static_cast<float>(texel) + 0.5f) / size; };
     const glm::vec3 at(along(x), along(y), 0.0f);
-    // The id goes into random choices: with it, a texel looks the same whoever shades it.
+    // The id goes into random choices: with it, a texel does not depend on the thread that shades it.
     const auto id = static_cast<std::uint32_t>(y * size + x);
     return Receiver(at, {glm::vec3(0.0f, 0.0f, 1.0f), glm::vec3(0.7f)}, at, id);
 }

@@ -1,4 +1,4 @@
-// A BSDF that belongs to an integrator and says nothing but its values. Bounded by a material of the library that is
+// A BSDF of an integrator that offers its values and nothing else. Bounded by a material of the library that is
 // nowhere below it, it needs cuts as small as that one's; cut off at a stated cap, the whole cut.
 #include <cmath>
 #include <cstdio>

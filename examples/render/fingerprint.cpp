@@ -65,15 +65,15 @@ void add_options(Fingerprint& print, const Options& o) {
     add("--clamp-ratio", o.clamp.ratio);
     add("--materials", std::string(o.diffuse_materials ? "diffuse" : "full"));
     add("--aov", listed(o.aovs));
-    // Of an option that is not among these nobody knows that it changes nothing.
+    // An option that is not among these may change the picture: it is part of the fingerprint.
     for (std::size_t i = 0; i < o.given.size() && i < o.given_texts.size(); ++i) {
         const bool is_known = std::find(known.begin(), known.end(), o.given[i]) != known.end();
         if (!is_known) print.add(o.given[i], as_utf8(o.given_texts[i]));
     }
 }
 
-// Each of these takes its object apart into all of its members: with a new one they no longer compile, and nobody
-// forgets it here.
+// Each of these takes its object apart into all of its members, so that a member that is added and left out here is a
+// compile error.
 
 void add_to(ContentHash& hash, const TextureUse& use) {
     const auto& [texture, uv_set, uv] = use;
@@ -107,14 +107,14 @@ void add_to(ContentHash& hash, const Environment& environment) {
 void add_to(ContentHash& hash, const Background& background) {
     const auto& [environment, daylight] = background;
     if (environment) add_to(hash, *environment);
-    // A few directions tell one sky from another.
+    // The sky's parameters are not stored; its radiance in a few directions differs wherever they do.
     if (!daylight) return;
     hash.add(glm::vec3(daylight->towards_sun())).add(daylight->sun_radiance()).add(daylight->ground_radiance());
     for (const float height : {0.1f, 0.5f, 0.9f}) hash.add(daylight->sky_radiance(glm::dvec3(0.3, height, 0.2)));
 }
 
 void add_scene(Fingerprint& print, const Scene& scene) {
-    // Left out: names, what is only counted or told, and `lighting`, which has become lights and background.
+    // Left out: names, counts and messages, and `lighting`, from which the lights and the background were made.
     const auto& [name, origin, positions, normals, tangents, colors, uv_sets, triangles, triangle_material, materials,
                  textures, cameras, omni, oriented, spots, directional, spheres, sphere_points, virtual_lights,
                  environment_lights, sun_lights, sky_lights, ground_lights, lighting, background, dropped_triangles,

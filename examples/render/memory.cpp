@@ -81,7 +81,7 @@ const char* memory_shortage() {
 
 std::string explanation(const std::exception& problem) {
     const std::string words = problem.what();
-    // TBB's, whoever passes them on.
+    // The text is TBB's, in whichever exception it arrives.
     if (words.find("pthread_create") == std::string::npos) return words;
     if (address_limit() || is_memory_short()) return memory_shortage();
     return words + "; give a smaller --threads";

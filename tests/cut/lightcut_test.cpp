@@ -118,7 +118,7 @@ TEST(Shade, TakesAnyContiguousRanges) {
 }
 
 #ifndef NDEBUG
-/// Says that it is a Lambert's lobe, and forgets the cosine.
+/// Claims the cosine lobe of a Lambert material, and evaluates without the cosine.
 struct WithoutCosine : Lambert<V> {
     V evaluate(const glm::vec3&) const { return albedo * 0.31830989f; }
     void evaluate_many(const LaneVectors&, int, LaneSpectra<V>&) const = delete;

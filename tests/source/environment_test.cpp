@@ -129,7 +129,7 @@ TEST(EnvironmentLights, AreTheSameEveryTimeAndDifferBySeed) {
 }
 
 TEST(EnvironmentLights, NeverLoseTheSun) {
-    // One pixel has 0.5 to 100 times the power of all others; nobody knows where it lies.
+    // One pixel has 0.5 to 100 times the power of all others, at a random place.
     Random random(4);
     for (const double ratio : {0.5, 3.0, 100.0}) {
         for (const std::size_t count : {10u, 64u, 1000u}) {

@@ -100,7 +100,7 @@ void GltfNodes::apply_animation(LeftOutList& left_out) {
 void GltfNodes::apply_channel(const JsonObject& animation, const JsonObject& channel, LeftOutList& left_out) {
     const JsonObject target = channel.object("target");
     const auto node = target.index("node");
-    if (!node) return;  // of an extension
+    if (!node) return;  // the target of an extension
     json(*node);
     const std::string path = target.text("path");
     if (path != "translation" && path != "rotation" && path != "scale" && path != "weights") {
@@ -119,7 +119,7 @@ void GltfNodes::apply_channel(const JsonObject& animation, const JsonObject& cha
         return document_.element("accessors", accessor, "accessor").needed("count");
     };
     const std::size_t keys = count_of(sampler.needed("input")) * (is_cubic ? 3 : 1);
-    // Weights are an element each; of others a key is one.
+    // A key of weights has one element for each weight; a key of anything else is one element.
     const std::size_t elements = keys > 0 ? count_of(output) / keys : 0;
     const bool fits = path == "weights" ? components == 1 && elements > 0
                                         : components == (path == "rotation" ? 4u : 3u) && elements == 1;
@@ -152,7 +152,8 @@ void GltfNodes::compose() {
         const bool is_root = parent_[i] == none;
         to_world_[i] = is_root ? parts_[i].to_parent() : to_world_[parent_[i]] * parts_[i].to_parent();
         turns[i] = is_root ? parts_[i].turn() : turns[parent_[i]] * parts_[i].turn();
-        // Of an uneven scale the transform knows where -z leads; of one of zero only the rotations do.
+        // The image of -z under the whole transform; where a scale of zero makes that the null vector, under the
+        // rotations alone.
         const glm::dvec3 axis = -glm::dvec3(to_world_[i][2]);
         const double length = glm::length(axis);
         const double rest = glm::length(turns[i][2]);
@@ -160,14 +161,14 @@ void GltfNodes::compose() {
         order.insert(order.end(), children_[i].begin(), children_[i].end());
     }
     if (order.size() == count()) return;
-    // What hangs from no root is part of a ring.
+    // A node that no root reaches is in a cycle, or below one.
     std::vector<bool> reached(count());
     for (const std::size_t i : order) reached[i] = true;
     const auto lost = std::find(reached.begin(), reached.end(), false) - reached.begin();
     json(static_cast<std::size_t>(lost)).fail("it is its own ancestor; the file is damaged");
 }
 
-/// The default scene's root nodes; of a file without scenes, the nodes that are nobody's child.
+/// The default scene's root nodes; of a file without scenes, the nodes without a parent.
 std::vector<std::size_t> GltfNodes::roots() const {
     if (document_.count("scenes") > 0) {
         const JsonObject scene = document_.element("scenes", document_.root().whole_number("scene", 0), "scene");
@@ -185,7 +186,7 @@ std::vector<std::size_t> GltfNodes::roots() const {
     return roots;
 }
 
-/// Names scenes but the default one, and what hangs from no scene at all.
+/// Notes the scenes other than the default one, and the nodes that belong to no scene.
 void GltfNodes::note_other_scenes(LeftOutList& left_out) const {
     const std::size_t scenes = document_.count("scenes");
     if (scenes == 0) return;

@@ -20,7 +20,7 @@ namespace {
 /// What a keyword's part of a material says, and why the picture does not show it.
 struct IgnoredKeyword {
     std::string_view keyword;  ///< in lower case
-    const char* why;           ///< null: it says nothing of the surface under given light
+    const char* why;           ///< null: the picture is the same without it
 };
 
 constexpr const char* not_supported = "not supported";
@@ -83,7 +83,7 @@ private:
             unknown_.clear();
             return;
         }
-        // What belongs to no material says nothing; nobody needs the rest of one that cannot be used.
+        // Ignored: what comes before the first `newmtl`, and the rest of a material that has an error already.
         if (library_.materials.empty() || !material().problem.empty()) return;
         try {
             parse(keyword, statement);

@@ -125,7 +125,7 @@ void remove_stale_temporaries(const std::filesystem::path& folder) {
         const std::filesystem::path& path = entry->path();
         if (!is_temporary(path.filename().native())) continue;
         const Descriptor file(::open(path.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK));
-        // Whoever writes one has it locked, until it has its name.
+        // A process that still writes the file holds its lock until the file has its final name.
         if (file && file.lock() == Descriptor::Lock::held && file.is_at(path)) ::unlink(path.c_str());
     }
 }

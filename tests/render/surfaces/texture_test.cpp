@@ -217,7 +217,7 @@ TEST(TextureFile, CutShortAnywhereIsRefused) {
           bitmap({{1, 2, 3}, {4, 5, 6}, {7, 8, 9}, {10, 11, 12}})}) {
         read(file);
         for (std::size_t size = 0; size < file.size(); ++size) {
-            // The last bytes of a PNG picture are a checksum that nobody looks at.
+            // The last bytes of a PNG picture are a checksum that the reader ignores.
             const bool is_png = file.starts_with("\x89PNG");
             if (is_png && size >= file.size() - 4) continue;
             EXPECT_THAT(refused(file.substr(0, size)), HasSubstr("a.png: not an image")) << size << file.substr(0, 4);
