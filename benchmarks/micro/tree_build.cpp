@@ -35,6 +35,7 @@
 #include <nlohmann/json.hpp>
 
 #include "figures.hpp"
+#include "support/threads.hpp"
 #include "timing.hpp"
 
 namespace {
@@ -82,20 +83,7 @@ using lightcuts::OrientedItem;
 using lightcuts::PointItem;
 
 /// An executor of as many threads as the machine has.
-struct Threads {
-    template <class Task>
-    void operator()(std::size_t count, Task&& task) const {
-        std::atomic<std::size_t> next = 0;
-        const auto work = [&] {
-            for (std::size_t i = next++; i < count; i = next++) task(i);
-        };
-        std::vector<std::jthread> others;
-        for (std::size_t t = 1; t < std::min<std::size_t>(count, std::thread::hardware_concurrency()); ++t) {
-            others.emplace_back(work);
-        }
-        work();
-    }
-};
+lightcuts::test::Threads all_threads() { return {std::thread::hardware_concurrency()}; }
 
 /// Uniform numbers in [0, 1).
 class Uniform {
@@ -307,12 +295,12 @@ public:
                 row(set, "binned, all items", [&] { return lightcuts::divide(span, lightcuts::Binned{0}); });
                 row(set, "longest axis", [&] { return lightcuts::divide(span, lightcuts::LongestAxis{}); });
                 threaded_row(set, "binned, threads",
-                             [&] { return lightcuts::divide(span, lightcuts::Binned{}, Threads{}); });
+                             [&] { return lightcuts::divide(span, lightcuts::Binned{}, all_threads()); });
             }
             if (count <= options_.max_agglomerate) {
                 row(set, "agglomerate", [&] { return lightcuts::agglomerate(span); });
                 threaded_row(set, "agglomerate, threads",
-                             [&] { return lightcuts::agglomerate(span, lightcuts::ClusterSize{}, Threads{}); });
+                             [&] { return lightcuts::agglomerate(span, lightcuts::ClusterSize{}, all_threads()); });
             }
         }
     }
