@@ -1,0 +1,17 @@
+# cmake -D MANIFEST=vcpkg.json -D VERSION=0.1.0 -D DESCRIPTION=... -P manifest.cmake: is it JSON, does it say of the
+# library what CMakeLists.txt does, and name the packages that the library needs?
+cmake_minimum_required(VERSION 3.24)
+file(READ ${MANIFEST} manifest)
+function(expect_text wanted)
+  string(JSON found ERROR_VARIABLE problem GET "${manifest}" ${ARGN})
+  if(problem OR NOT found STREQUAL wanted)
+    list(JOIN ARGN "." where)
+    message(SEND_ERROR "${MANIFEST}: `${where}` should be \"${wanted}\", not \"${found}\"")
+  endif()
+endfunction()
+expect_text("lightcuts" name)
+expect_text("${VERSION}" version)
+expect_text("${DESCRIPTION}" description)
+expect_text("Apache-2.0" license)
+expect_text("glm" dependencies 0)
+expect_text("embree" features embree dependencies 0)
