@@ -197,7 +197,7 @@ static_assert(!BoundPolicy<NoQuick, LeastMaterial, LightCluster<LeastLight>>);
 
 // Refinement problems
 struct LeastProblem {
-    using node = int;
+    using Node = int;
     void roots(ReusableList<int>& out) { out.append(1); }
     void evaluate(std::span<int>) {}
     double priority(int) const { return 0.0; }

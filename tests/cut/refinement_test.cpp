@@ -23,7 +23,7 @@ struct ToyNode {
 /// Refines an endless binary tree whose priorities fall from parent to child, and writes down what the engine does.
 /// Evaluates nothing.
 struct Toy {
-    using node = ToyNode;
+    using Node = ToyNode;
 
     std::uint64_t seed = 1;
     double limit_below = 0.01;
@@ -32,22 +32,22 @@ struct Toy {
     std::vector<std::size_t> batches{};  ///< sizes of what was evaluated at once
     std::vector<std::uint32_t> seen{};
 
-    void roots(ReusableList<node>& out) {
+    void roots(ReusableList<Node>& out) {
         for (std::uint32_t i = 0; i < root_count; ++i) out.append({i, 1.0 + 0.1 * i});
     }
-    void evaluate(std::span<node> fresh) {
+    void evaluate(std::span<Node> fresh) {
         batches.push_back(fresh.size());
-        for (const node& n : fresh) seen.push_back(n.index);
+        for (const Node& n : fresh) seen.push_back(n.index);
     }
-    double priority(const node& n) const { return n.priority; }
+    double priority(const Node& n) const { return n.priority; }
     double threshold() const { return limit_below; }
-    void split(const node& n, ReusableList<node>& out) {
+    void split(const Node& n, ReusableList<Node>& out) {
         splits.push_back(n.index);
         for (const std::uint32_t child : {2 * n.index + root_count_(), 2 * n.index + root_count_() + 1}) {
             out.append({child, n.priority * (0.3 + 0.5 * uniform01(hash_keys(seed, child)))});
         }
     }
-    bool precedes(const node& a, const node& b) const { return a.index < b.index; }
+    bool precedes(const Node& a, const Node& b) const { return a.index < b.index; }
 
 private:
     std::uint32_t root_count_() const { return static_cast<std::uint32_t>(root_count); }
@@ -189,23 +189,23 @@ TEST(Refinement, EvaluatesEveryNodeOnce) {
 
 // Frontiers of fixed priorities.
 struct Listed {
-    using node = ToyNode;
+    using Node = ToyNode;
     std::vector<ToyNode> list;
     std::vector<std::uint32_t> splits{};
 
-    void roots(ReusableList<node>& out) {
-        for (const node& n : list) out.append(n);
+    void roots(ReusableList<Node>& out) {
+        for (const Node& n : list) out.append(n);
     }
-    void evaluate(std::span<node>) {}
-    double priority(const node& n) const { return n.priority; }
+    void evaluate(std::span<Node>) {}
+    double priority(const Node& n) const { return n.priority; }
     double threshold() const { return 0.5; }
-    void split(const node& n, ReusableList<node>& out) {
+    void split(const Node& n, ReusableList<Node>& out) {
         splits.push_back(n.index);
         out.append({n.index + 100, 0.0});
         out.append({n.index + 200, 0.0});
     }
     /// Larger indices first.
-    bool precedes(const node& a, const node& b) const { return a.index > b.index; }
+    bool precedes(const Node& a, const Node& b) const { return a.index > b.index; }
 };
 
 TEST(Refinement, TakesInfinitiesFirstThenTheLargestThenBreaksTies) {
@@ -239,9 +239,9 @@ TEST(Refinement, SplitsInfinitiesAlongWithTheLargestFiniteInOneRound) {
 struct Tightening : Toy {
     std::vector<std::uint32_t> tightened;
 
-    void tighten(ReusableList<node>& frontier, std::span<RefinementCandidate> candidates) {
+    void tighten(ReusableList<Node>& frontier, std::span<RefinementCandidate> candidates) {
         for (RefinementCandidate& candidate : candidates) {
-            node& n = frontier[candidate.at];
+            Node& n = frontier[candidate.at];
             EXPECT_EQ(n.priority, candidate.priority);
             EXPECT_GT(n.priority, threshold()) << "only nodes above the threshold are worth it";
             if (std::find(tightened.begin(), tightened.end(), n.index) != tightened.end()) continue;
@@ -266,8 +266,8 @@ TEST(Refinement, TightensBeforeItSplits) {
 /// Nodes of a priority below 0.02 can never be refined.
 struct Settling : Toy {
     mutable std::size_t asked_in_vain = 0;
-    bool is_final(const node& n) const { return n.priority < 0.02; }
-    double priority(const node& n) const {
+    bool is_final(const Node& n) const { return n.priority < 0.02; }
+    double priority(const Node& n) const {
         asked_in_vain += is_final(n) ? 1 : 0;
         return n.priority;
     }
@@ -293,11 +293,11 @@ struct Swaying : Toy {
     double base = 1.0;
     std::size_t observed = 0;
 
-    double priority(const node& n) const { return n.priority * base; }
+    double priority(const Node& n) const { return n.priority * base; }
     template <class Visit>
     void observe(const Visit& visit) {
         observed = 0;
-        visit([this](const node&) { ++observed; });
+        visit([this](const Node&) { ++observed; });
         weight = round < weights.size() ? weights[round] : weights.back();
         ++round;
     }
@@ -399,24 +399,24 @@ TEST(Refinement, KeepsTwoPlacesANodeAtMost) {
 
 /// Lazy clusters of any number of children, some of which vanish: node n has 0 to 7.
 struct Lazy {
-    using node = ToyNode;
+    using Node = ToyNode;
     static constexpr std::size_t most_children = 7;
     std::uint64_t seed = 1;
     std::vector<std::uint32_t> splits{};
 
-    void roots(ReusableList<node>& out) { out.append({1, 1.0}); }
-    void evaluate(std::span<node>) {}
-    double priority(const node& n) const { return n.priority; }
+    void roots(ReusableList<Node>& out) { out.append({1, 1.0}); }
+    void evaluate(std::span<Node>) {}
+    double priority(const Node& n) const { return n.priority; }
     double threshold() const { return 0.01; }
-    std::uint32_t child_count(const node& n) const { return static_cast<std::uint32_t>(hash_keys(seed, n.index) % 8); }
-    void split(const node& n, ReusableList<node>& out) {
+    std::uint32_t child_count(const Node& n) const { return static_cast<std::uint32_t>(hash_keys(seed, n.index) % 8); }
+    void split(const Node& n, ReusableList<Node>& out) {
         splits.push_back(n.index);
         for (std::uint32_t k = 0; k < child_count(n); ++k) {
             const std::uint32_t child = 7 * n.index + k + 1;
             out.append({child, n.priority * (0.2 + 0.4 * uniform01(hash_keys(seed, child, 1)))});
         }
     }
-    bool precedes(const node& a, const node& b) const { return a.index < b.index; }
+    bool precedes(const Node& a, const Node& b) const { return a.index < b.index; }
 };
 struct FixedLazy : Lazy {
     static constexpr bool fixed_priorities = true;
@@ -467,7 +467,7 @@ TEST(Refinement, TakesAnyNumberOfChildren) {
 /// A sum over pairs of two ranges of numbers: a node is a pair of ranges, split on the side that is longer. Pairs whose
 /// product is zero throughout are dropped. The bound of a pair is the largest product times the number of pairs.
 struct ProductGraph {
-    struct node {
+    struct Node {
         std::uint32_t a = 0, a_end = 0, b = 0, b_end = 0;
         double sum = 0.0;
     };
@@ -485,22 +485,22 @@ struct ProductGraph {
         return most;
     }
 
-    void append(std::uint32_t a, std::uint32_t a_end, std::uint32_t b, std::uint32_t b_end, ReusableList<node>& out) {
+    void append(std::uint32_t a, std::uint32_t a_end, std::uint32_t b, std::uint32_t b_end, ReusableList<Node>& out) {
         if (largest(a, a_end, left) > 0.0) out.append({a, a_end, b, b_end});
     }
-    void roots(ReusableList<node>& out) { append(0, size, 0, size, out); }
-    void evaluate(std::span<node> fresh) {
-        for (node& n : fresh) {
+    void roots(ReusableList<Node>& out) { append(0, size, 0, size, out); }
+    void evaluate(std::span<Node> fresh) {
+        for (Node& n : fresh) {
             n.sum = left(n.a) * right(n.b) * (n.a_end - n.a) * (n.b_end - n.b);
             total += n.sum;
         }
     }
-    double priority(const node& n) const {
+    double priority(const Node& n) const {
         if (n.a_end - n.a == 1 && n.b_end - n.b == 1) return 0.0;
         return largest(n.a, n.a_end, left) * largest(n.b, n.b_end, right) * (n.a_end - n.a) * (n.b_end - n.b);
     }
     double threshold() const { return ratio * total; }
-    void split(const node& n, ReusableList<node>& out) {
+    void split(const Node& n, ReusableList<Node>& out) {
         total -= n.sum;
         if (n.a_end - n.a >= n.b_end - n.b) {
             const std::uint32_t middle = (n.a + n.a_end) / 2;
@@ -512,7 +512,7 @@ struct ProductGraph {
             append(n.a, n.a_end, middle, n.b_end, out);
         }
     }
-    bool precedes(const node& a, const node& b) const { return a.a != b.a ? a.a < b.a : a.b < b.b; }
+    bool precedes(const Node& a, const Node& b) const { return a.a != b.a ? a.a < b.a : a.b < b.b; }
 };
 
 TEST(Refinement, RefinesAProductGraphToItsBounds) {
@@ -523,10 +523,10 @@ TEST(Refinement, RefinesAProductGraphToItsBounds) {
     for (const double ratio : {0.1, 0.01, 0.0}) {
         ProductGraph problem;
         problem.ratio = ratio;
-        Refinement<ProductGraph::node> refinement;
+        Refinement<ProductGraph::Node> refinement;
         refinement.run(problem, {});
         double sum = 0.0, bound = 0.0;
-        refinement.for_each([&](const ProductGraph::node& n) {
+        refinement.for_each([&](const ProductGraph::Node& n) {
             sum += n.sum;
             bound += problem.priority(n);
             EXPECT_LE(problem.priority(n), problem.threshold() * (1.0 + 1e-12));
@@ -540,7 +540,7 @@ TEST(Refinement, RefinesAProductGraphToItsBounds) {
 /// Approximation of a function by a cut: intervals are halved where it varies, and then, while the limit allows, where
 /// it is largest.
 struct Approximation {
-    struct node {
+    struct Node {
         double from = 0.0, to = 1.0;
     };
     static constexpr bool fixed_priorities = true;
@@ -548,7 +548,7 @@ struct Approximation {
     double limit = 1e-3;
 
     static double value(double x) { return x < 0.3 ? 1.0 : x * x; }
-    double variance(const node& n) const {
+    double variance(const Node& n) const {
         double mean = 0.0, square = 0.0;
         for (int i = 0; i < 16; ++i) {
             const double v = value(n.from + (n.to - n.from) * (i + 0.5) / 16.0);
@@ -557,28 +557,28 @@ struct Approximation {
         }
         return std::max(0.0, square - mean * mean) * (n.to - n.from);
     }
-    void roots(ReusableList<node>& out) { out.append({0.0, 1.0}); }
-    void evaluate(std::span<node>) {}
-    double priority(const node& n) const {
+    void roots(ReusableList<Node>& out) { out.append({0.0, 1.0}); }
+    void evaluate(std::span<Node>) {}
+    double priority(const Node& n) const {
         return by_variance ? variance(n) : value(0.5 * (n.from + n.to)) * (n.to - n.from);
     }
     double threshold() const { return by_variance ? limit : 0.0; }
-    void split(const node& n, ReusableList<node>& out) {
+    void split(const Node& n, ReusableList<Node>& out) {
         const double middle = 0.5 * (n.from + n.to);
         out.append({n.from, middle});
         out.append({middle, n.to});
     }
-    bool precedes(const node& a, const node& b) const { return a.from < b.from; }
+    bool precedes(const Node& a, const Node& b) const { return a.from < b.from; }
 };
 
 TEST(Refinement, GoesOnWithASecondCriterion) {
     Approximation first;
-    Refinement<Approximation::node> refinement;
+    Refinement<Approximation::Node> refinement;
     refinement.run(first, {.max_nodes = 1000});
     EXPECT_EQ(refinement.stop_reason(), StopReason::converged);
     const std::size_t pieces = refinement.size();
     EXPECT_LT(pieces, 64u);
-    refinement.for_each([&](const Approximation::node& n) { EXPECT_LE(first.variance(n), first.limit); });
+    refinement.for_each([&](const Approximation::Node& n) { EXPECT_LE(first.variance(n), first.limit); });
 
     Approximation second;
     second.by_variance = false;
@@ -587,17 +587,17 @@ TEST(Refinement, GoesOnWithASecondCriterion) {
     EXPECT_EQ(refinement.size(), 64u);
     EXPECT_EQ(refinement.stop_reason(), StopReason::limit);
     double length = 0.0, largest = 0.0;
-    refinement.for_each([&](const Approximation::node& n) {
+    refinement.for_each([&](const Approximation::Node& n) {
         length += n.to - n.from;
         largest = std::max(largest, second.priority(n));
         EXPECT_LE(first.variance(n), first.limit) << "nothing becomes coarser";
     });
     EXPECT_DOUBLE_EQ(length, 1.0);
     // The largest is not larger than the parent of any piece that the second criterion made.
-    Refinement<Approximation::node> coarse;
+    Refinement<Approximation::Node> coarse;
     coarse.run(first, {.max_nodes = 1000});
     double before = 0.0;
-    coarse.for_each([&](const Approximation::node& n) { before = std::max(before, second.priority(n)); });
+    coarse.for_each([&](const Approximation::Node& n) { before = std::max(before, second.priority(n)); });
     EXPECT_LT(largest, before);
 }
 

@@ -21,7 +21,7 @@ class LightcutProblem {
 public:
     using S = typename Forest::spectrum;
     static constexpr bool clamps = Forest::clamps;
-    using node = CutNode<S, clamps>;
+    using Node = CutNode<S, clamps>;
     using Total = detail::RunningTotal<S, clamps>;
     using Surface = std::remove_cvref_t<decltype(R::material)>;
 
@@ -42,7 +42,7 @@ public:
           representatives_(forest, receiver, oracle, options.clamp, query_list),
           bounder_(forest, receiver, oracle, policy) {}
 
-    void roots(ReusableList<node>& out) {
+    void roots(ReusableList<Node>& out) {
         total_.start(options_.clamp, forest_);
         queries_ = 0;
         const Start start = start_of();
@@ -62,7 +62,7 @@ public:
         });
     }
 
-    void split(const node& parent, ReusableList<node>& out) {
+    void split(const Node& parent, ReusableList<Node>& out) {
         total_.subtract(parent);
         forest_.visit(parent.kind, [&](const auto& tree) {
             const std::uint32_t right = tree.topology().right(parent.node);
@@ -74,19 +74,19 @@ public:
         });
     }
 
-    void tighten(ReusableList<node>& frontier, std::span<RefinementCandidate> candidates) const {
+    void tighten(ReusableList<Node>& frontier, std::span<RefinementCandidate> candidates) const {
         const double threshold = threshold_ / total_.priority_scale();
         bounder_.tighten(
-            frontier, candidates, [this](const node& n) { return priority(n); }, threshold);
+            frontier, candidates, [this](const Node& n) { return priority(n); }, threshold);
     }
 
     /// Finds the transfer of new representatives; a batched oracle's queries go to the caller's list.
-    void request(std::span<node> fresh) { queries_ += representatives_.request(fresh); }
+    void request(std::span<Node> fresh) { queries_ += representatives_.request(fresh); }
 
     /// Traces the shadow rays of new nodes one by one.
-    void evaluate(std::span<node> fresh) {
+    void evaluate(std::span<Node> fresh) {
         request(fresh);
-        for (node& n : fresh) {
+        for (Node& n : fresh) {
             if (n.queried) representatives_.trace(n);
             total_.add(n);
         }
@@ -94,8 +94,8 @@ public:
 
     /// Takes the answers to the queries that `fresh` gave rise to, in their order; returns those left over.
     template <class A>
-    std::span<const A> receive(std::span<node> fresh, std::span<const A> answers) {
-        for (node& n : fresh) {
+    std::span<const A> receive(std::span<Node> fresh, std::span<const A> answers) {
+        for (Node& n : fresh) {
             if (n.queried) {
                 representatives_.receive(n, answers.front());
                 answers = answers.subspan(1);
@@ -105,7 +105,7 @@ public:
         return answers;
     }
 
-    bool is_final(const node& n) const { return is_black(n.bound); }
+    bool is_final(const Node& n) const { return is_black(n.bound); }
 
     template <class Visit>
     void observe(const Visit& visit) {
@@ -119,12 +119,12 @@ public:
     void checkpoint() { total_.checkpoint(); }
     double priority_scale() const { return total_.priority_scale(); }
     double priority_spread() const { return total_.priority_spread(); }
-    double priority(const node& n) const { return total_.priority(n, threshold_); }
+    double priority(const Node& n) const { return total_.priority(n, threshold_); }
     double threshold() const { return threshold_; }
 
     /// Clusters around the receiver, whose bounds are infinite, go by intensity over squared diagonal. (The cosine that
     /// might go with it cannot be asked of the material.)
-    bool precedes(const node& a, const node& b) const {
+    bool precedes(const Node& a, const Node& b) const {
         const double density_a = density(a), density_b = density(b);
         if (density_a != density_b) return density_a > density_b;
         if (a.kind != b.kind) return a.kind < b.kind;
@@ -159,9 +159,9 @@ private:
     /// Appends a node with what its parent's bound says of it. In place: a node is too large to be passed around.
     /// What is known of its representative is left to be set.
     template <class Tree>
-    static node& append_bounded(const Tree& tree, std::uint32_t kind, std::uint32_t index, const S& unit_bound,
-                                ReusableList<node>& out) {
-        node& n = out.append();
+    static Node& append_bounded(const Tree& tree, std::uint32_t kind, std::uint32_t index, const S& unit_bound,
+                                ReusableList<Node>& out) {
+        Node& n = out.append();
         n.node = index;
         n.kind = static_cast<std::uint8_t>(kind);
         n.unit_bound = unit_bound;
@@ -180,8 +180,8 @@ private:
     /// Appends a node with a representative of its own, which has to be looked at.
     template <class Tree>
     void append(const Tree& tree, std::uint32_t kind, std::uint32_t index, const S& unit_bound,
-                ReusableList<node>& out) const {
-        node& n = append_bounded(tree, kind, index, unit_bound, out);
+                ReusableList<Node>& out) const {
+        Node& n = append_bounded(tree, kind, index, unit_bound, out);
         n.queried = true;
         n.transfer = black<S>();
         n.estimate = black<S>();
@@ -198,8 +198,8 @@ private:
 
     /// Appends the child that holds its parent's representative: its transfer is known.
     template <class Tree>
-    static void append_inheriting(const Tree& tree, const node& parent, std::uint32_t index, ReusableList<node>& out) {
-        node& n = append_bounded(tree, parent.kind, index, parent.unit_bound, out);
+    static void append_inheriting(const Tree& tree, const Node& parent, std::uint32_t index, ReusableList<Node>& out) {
+        Node& n = append_bounded(tree, parent.kind, index, parent.unit_bound, out);
         n.queried = false;
         n.representative = parent.representative;
         n.transfer = parent.transfer;
@@ -207,7 +207,7 @@ private:
         n.estimate = finite_product(n.transfer, tree.clusters()[index].intensity);
     }
 
-    double density(const node& n) const {
+    double density(const Node& n) const {
         return forest_.visit(n.kind, [&](const auto& tree) {
             const auto& cluster = tree.clusters()[n.node];
             const double size2 = diagonal2(cluster.box);

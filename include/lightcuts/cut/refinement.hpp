@@ -22,7 +22,7 @@ struct RefinementCandidate {
 
 /// What the refinement engine asks of a problem. It knows neither trees nor light.
 ///
-/// - `node`: a value with a default.
+/// - `Node`: a value with a default.
 /// - `roots(out)`: appends the starting frontier to a ReusableList.
 /// - `evaluate(span of new nodes)`: one batch, possibly nothing. Every node passes through it once.
 /// - `priority(node)`: not negative, possibly infinite, never NaN. Use bounds, never what an estimate happened to
@@ -49,8 +49,8 @@ struct RefinementCandidate {
 ///   grown since by more than the scale, nor by less than scale / spread. The engine refines by scale, and makes a new
 ///   checkpoint where the spread is above 1.02. Without these functions it asks for every priority in every round.
 template <class P>
-concept RefinementProblem = std::copyable<typename P::node> && std::default_initializable<typename P::node> &&
-    requires(P p, const P c, typename P::node& n, const typename P::node& m, ReusableList<typename P::node>& out) {
+concept RefinementProblem = std::copyable<typename P::Node> && std::default_initializable<typename P::Node> &&
+    requires(P p, const P c, typename P::Node& n, const typename P::Node& m, ReusableList<typename P::Node>& out) {
     p.roots(out);
     { c.priority(m) } -> std::convertible_to<double>;
     { c.threshold() } -> std::convertible_to<double>;

@@ -14,21 +14,21 @@ namespace lightcuts::detail {
 template <class Forest, class M, class Policy, class PriorityOf>
 class StratumProblem {
 public:
-    using node = typename EstimateScratch<typename Forest::spectrum>::Stratum;
+    using Node = typename EstimateScratch<typename Forest::spectrum>::Stratum;
     static constexpr bool fixed_priorities = true;
 
     StratumProblem(const Forest& forest, const Receiver<M>& receiver, const Policy& policy,
                    const PriorityOf& priority_of)
         : forest_(forest), receiver_(receiver), policy_(policy), priority_of_(priority_of) {}
 
-    void roots(ReusableList<node>& out) {
+    void roots(ReusableList<Node>& out) {
         const auto importances = root_importances(policy_, receiver_, forest_);
         forest_.for_each([&](std::uint32_t kind, const auto& tree) {
             if (!tree.empty()) append(tree, kind, tree.topology().root(), importances[kind], out);
         });
     }
 
-    void split(const node& parent, ReusableList<node>& out) {
+    void split(const Node& parent, ReusableList<Node>& out) {
         forest_.visit(parent.kind, [&](const auto& tree) {
             const auto children = child_importances(policy_, receiver_, tree, parent.node);
             append(tree, parent.kind, tree.topology().left(parent.node), children[0], out);
@@ -36,12 +36,12 @@ public:
         });
     }
 
-    void evaluate(std::span<node>) {}
-    double priority(const node& n) const { return n.priority; }
+    void evaluate(std::span<Node>) {}
+    double priority(const Node& n) const { return n.priority; }
     double threshold() const { return 0.0; }
-    bool is_final(const node& n) const { return n.leaf; }
+    bool is_final(const Node& n) const { return n.leaf; }
 
-    bool precedes(const node& a, const node& b) const {
+    bool precedes(const Node& a, const Node& b) const {
         if (a.importance.irradiance != b.importance.irradiance) {
             return a.importance.irradiance > b.importance.irradiance;
         }
@@ -51,7 +51,7 @@ public:
 private:
     template <class Tree>
     void append(const Tree& tree, std::uint32_t kind, std::uint32_t index, const Importance& importance,
-                ReusableList<node>& out) const {
+                ReusableList<Node>& out) const {
         if (importance.is_zero()) return;
         const bool leaf = tree.topology().is_leaf(index);
         out.append({index, kind, leaf, importance, leaf ? 0.0 : priority_of_(tree, index, importance)});
