@@ -136,7 +136,7 @@ int main(int argc, char** argv) {
     } catch (const CLI::ParseError& e) {
         return fail(2, one_line(e.what()) + " (--help lists the options)");
     } catch (const std::bad_alloc&) {
-        // What was asked for has been given back: there is room for a message.
+        // The pictures have been freed by now, so that there is memory for a message.
         return fail(1, memory_shortage());
     } catch (const std::exception& e) { return fail(1, e.what()); }
 }

@@ -48,7 +48,7 @@ struct Worst {
 
 Worst worst_of(std::vector<double>& values) {
     if (values.empty()) return {};
-    // What is no number is as wrong as can be, and sortable.
+    // NaN cannot be sorted; it counts as an infinite error.
     for (double& v : values) v = std::isnan(v) ? std::numeric_limits<double>::infinity() : v;
     std::sort(values.begin(), values.end());
     return {values.back(), percentile(values, 0.999)};

@@ -13,7 +13,7 @@ glm::vec3 false_color(double value, double white) {
     constexpr std::array<glm::vec3, 5> ramp = {glm::vec3(0.0f, 0.0f, 0.0f), glm::vec3(0.05f, 0.05f, 0.6f),
                                                glm::vec3(0.8f, 0.05f, 0.1f), glm::vec3(1.0f, 0.8f, 0.0f),
                                                glm::vec3(1.0f, 1.0f, 1.0f)};
-    // Written so that what is no number does not index the ramp.
+    // The comparison is false for NaN, which must not become an index.
     const double share = value < white ? std::max(0.0, value / white) : 1.0;
     const double at = share * static_cast<double>(ramp.size() - 1);
     const std::size_t below = std::min(static_cast<std::size_t>(at), ramp.size() - 2);

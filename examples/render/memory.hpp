@@ -9,8 +9,8 @@ namespace render {
 /// Largest resident memory of the process so far, bytes.
 std::uint64_t peak_memory();
 
-/// True iff the system refuses this process what a thread's stack or a ray tracer's block takes: a failure of others
-/// then has this cause, whatever they say.
+/// True iff the system refuses this process as much memory as a thread's stack or a block of the ray tracer takes. Then
+/// an error of another library is a shortage of memory, whatever its message says.
 bool is_memory_short();
 
 /// One line on how much memory has not been enough, and on the limit if there is one. Allocates nothing. The text lasts

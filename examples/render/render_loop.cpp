@@ -264,7 +264,7 @@ Rendering render_picture(const View& view, const EyePathTracer& surfaces, const 
             }
         });
     }
-    // Added in the tiles' order: sums of floating-point numbers do not depend on who was first.
+    // Added in the tiles' order, so that floating-point sums do not depend on which tile was finished first.
     for (const std::optional<RenderStatistics>& tile : by_tile) {
         if (!tile) continue;
         accumulate(rendering.statistics, *tile);

@@ -29,7 +29,7 @@ constexpr std::array<std::string_view, 13> supported_extensions{"EXT_mesh_gpu_in
                                                                 "KHR_mesh_quantization",
                                                                 "KHR_node_visibility",
                                                                 "KHR_texture_transform",
-                                                                "KHR_xmp_json_ld"};  // says nothing of the picture
+                                                                "KHR_xmp_json_ld"};  // does not affect the picture
 
 /// Bytes of a path that a system takes.
 constexpr std::size_t longest_name = 4096;

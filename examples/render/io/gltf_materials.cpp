@@ -87,7 +87,7 @@ Material GltfMaterials::convert(const JsonObject& source) {
         convert_metallic_roughness(source, m);
     }
     if (m.model == Material::Model::unlit) {
-        // What it shows, it emits.
+        // An unlit surface emits its base color.
         m.emission = m.base_color;
         m.emission_texture = m.base_color_texture;
         return m;
@@ -190,7 +190,7 @@ void GltfMaterials::convert_normals(const JsonObject& source, Material& m) {
     try {
         m.normal_texture = texture(source, "normalTexture", Coding::data, source);
     } catch (const invalid_input& problem) {
-        // A picture without it is flat, not wrong in its light.
+        // Left out and not refused: without a normal map only small relief is missing.
         leave_out(scene_.left_out, std::string("a normal map (") + problem.what() + ")", "it cannot be read");
     }
 }

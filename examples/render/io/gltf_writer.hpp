@@ -11,7 +11,7 @@
 
 namespace render {
 
-/// Makes a glTF file in memory, part by part: the JSON is open to everybody, and numbers go into one buffer.
+/// Makes a glTF file in memory, part by part: callers write into its JSON, and numbers go into one buffer.
 class GltfWriter {
 public:
     using Json = nlohmann::json;

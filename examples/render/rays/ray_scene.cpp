@@ -152,7 +152,8 @@ thread_local std::string embree_words;
 
 void keep_words(void*, RTCError, const char* words) { embree_words = words ? words : ""; }
 
-/// Embree gives a thread or a block that the system refuses any of two names.
+/// throws: std::bad_alloc for a shortage of memory, which Embree reports as RTC_ERROR_OUT_OF_MEMORY or, where a thread
+/// or a block is refused, as another error; std::runtime_error for any other failure.
 void require(RTCDevice device) {
     const RTCError error = rtcGetDeviceError(device);
     if (error == RTC_ERROR_NONE) return;
@@ -273,7 +274,8 @@ void RayScene::pass_light(const RTCFilterFunctionNArguments* arguments) {
         context.passages[context.count++] = here;
         context.product *= here.tint;
     }
-    // If layers that are met twice make it look dark, the truth is worth its cost.
+    // The product counts a layer that is met twice twice, and so may be too small: before the ray counts as blocked,
+    // the light that passes is computed from the passages.
     const bool is_dark = is_blocked(context.product) && is_blocked(light_through(self.source_, context));
     if (is_clear || (has_room && !is_dark)) arguments->valid[0] = 0;
 }

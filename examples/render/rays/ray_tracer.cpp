@@ -19,7 +19,7 @@ namespace {
 
 struct Isa {
     const char* name;
-    RTCDeviceProperty width;  ///< what an Embree has that was compiled for it
+    RTCDeviceProperty width;  ///< a property of every Embree that was compiled for this set
 };
 
 constexpr Isa isas[] = {{"sse2", RTC_DEVICE_PROPERTY_NATIVE_RAY4_SUPPORTED},

@@ -32,9 +32,9 @@ Scene builtin_colonnade();
 /// an oriented light; two dim panels at the ceiling are emissive surfaces.
 Scene builtin_screens();
 
-/// A glTF file, written and read in memory, with 5 rows of 6 tiles, one for each thing that such a file may say: see
-/// docs/renderer.md. The left half of a tile says it, the right half has by plain means the color that should come of
-/// it. Below, pools of light of a point, a spot and a sphere.
+/// A glTF file, written and read in memory, with 5 rows of 6 tiles, one for each feature of the format: see
+/// docs/renderer.md. The left half of a tile uses the feature, the right half has as a plain color what a correct
+/// reader makes of it. Below, pools of light of a point, a spot and a sphere.
 Scene builtin_test_card();
 
 /// Tiles are 1 x 1, their lower left corners `pitch` apart; the first one's is the origin, rows go downwards. The

@@ -22,8 +22,8 @@ using Json = GltfWriter::Json;
 
 Json to_json(const glm::vec3& v) { return {v.x, v.y, v.z}; }
 
-/// Writes a glTF file with a tile for each thing that such a file may say. The left half of a tile says it, the right
-/// half shows by plain color what should come of it: of a reader that knows it, one does not see where they meet.
+/// Writes a glTF file with a tile for each feature of the format. The left half of a tile uses the feature, the right
+/// half has as a plain color what a correct reader makes of it: then the two halves look the same.
 class TestCard {
 public:
     TestCard() {
