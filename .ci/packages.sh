@@ -7,7 +7,7 @@ renderer_packages=(
     nlohmann-json3-dev
 )
 test_packages=(
-    ccache clang clang-format clang-tidy doxygen libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev
+    ccache clang clang-format clang-tidy doxygen libgtest-dev libgmock-dev
     libcgal-dev pkgconf libc++-14-dev libc++abi-14-dev
 )
 
