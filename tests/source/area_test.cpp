@@ -1,13 +1,19 @@
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 #include <lightcuts/light/incidence.hpp>
 #include <lightcuts/source/area.hpp>
 #include "support/random.hpp"
@@ -204,6 +210,178 @@ TEST(AreaLights, AreUnbiasedOverSeeds) {
         mean.add(mean_height(area_lights(EmissiveTriangles<V>(triangles), 5, ScrambledSobol{seed})));
     }
     EXPECT_LT(mean.standard_errors_from(truth), one_in_a_million);
+}
+
+/// A map of square texels over the rectangle's unit square, black but for spots; its texels bound it.
+class SpottedSquare : public EmissiveTriangles<V> {
+public:
+    explicit SpottedSquare(std::size_t size)
+        : EmissiveTriangles<V>(square()), size_(size), texels_(size * size, V(0.0f)) {}
+
+    V& texel(std::size_t x, std::size_t y) { return texels_[y * size_ + x]; }
+    glm::dvec3 mean() const {
+        glm::dvec3 sum(0.0);
+        for (const V& t : texels_) sum += glm::dvec3(t);
+        return sum / static_cast<double>(texels_.size());
+    }
+
+    static constexpr bool is_textured(std::uint32_t) { return true; }
+    V radiance(std::uint32_t t, const glm::vec2& uv) const {
+        const glm::vec2 p = place(t, uv);
+        return texels_[cell(p.y) * size_ + cell(p.x)];
+    }
+    RadianceRange<V> radiance_range(std::uint32_t t, const PieceCorners& corners) const {
+        const glm::vec2 a = place(t, corners[0]), b = place(t, corners[1]), c = place(t, corners[2]);
+        const glm::vec2 low = glm::min(a, glm::min(b, c)), high = glm::max(a, glm::max(b, c));
+        RadianceRange<V> range{V(1e30f), V(0.0f)};
+        for (std::size_t y = cell(low.y); y <= cell(high.y); ++y) {
+            for (std::size_t x = cell(low.x); x <= cell(high.x); ++x) {
+                range.low = glm::min(range.low, texels_[y * size_ + x]);
+                range.high = glm::max(range.high, texels_[y * size_ + x]);
+            }
+        }
+        return range;
+    }
+
+private:
+    static const Triangles& square() {
+        static const Triangles triangles = rectangle(1.0f, 1.0f, V(0.0f));
+        return triangles;
+    }
+    static glm::vec2 place(std::uint32_t t, const glm::vec2& uv) {
+        return t == 0 ? glm::vec2(uv.x + uv.y, uv.y) : glm::vec2(uv.x, uv.x + uv.y);
+    }
+    std::size_t cell(float x) const {
+        return std::min(static_cast<std::size_t>(x * static_cast<float>(size_)), size_ - 1);
+    }
+
+    std::size_t size_;
+    std::vector<V> texels_;
+};
+
+static_assert(BoundedEmissiveMesh<SpottedSquare> && !BoundedEmissiveMesh<EmissiveTriangles<V>>);
+static_assert(std::is_constructible_v<EmitterSampler<SpottedSquare>, const SpottedSquare&>);
+static_assert(!std::is_constructible_v<EmitterSampler<SpottedSquare>, SpottedSquare>);  // would be gone
+
+TEST(AreaLights, FindSpotsDownToATexelByBounds) {
+    for (const std::size_t size : {7u, 256u, 509u}) {
+        SpottedSquare emitter(size);
+        emitter.texel(size / 3, size / 2) = V(4.0f, 1.0f, 0.0f);
+        emitter.texel(size - 1, 0) = V(0.0f, 0.0f, 2.0f);
+        const double cell = 1.0 / static_cast<double>(size);
+        for (const std::size_t count : {1u, 64u, 1000u}) {
+            const auto lights = area_lights(emitter, count);
+            ASSERT_EQ(lights.size(), count);
+            for (int c = 0; c < 3; ++c) EXPECT_NEAR(sum_of(lights)[c] / emitter.mean()[c], 1.0, 0.01);
+            for (const auto& l : lights) {
+                const auto is_in = [&](std::size_t x, std::size_t y) {
+                    const glm::dvec2 off = glm::dvec2(l.position) / cell - glm::dvec2(x, y);
+                    return off.x > -1e-3 && off.x < 1.001 && off.y > -1e-3 && off.y < 1.001;
+                };
+                EXPECT_TRUE(is_in(size / 3, size / 2) || is_in(size - 1, 0)) << l.position.x << " " << l.position.y;
+            }
+        }
+    }
+}
+
+TEST(EmitterSampler, KnowsThePowerToWithinItsError) {
+    Random random(5);
+    SpottedSquare emitter(200);
+    for (int i = 0; i < 400; ++i) {
+        emitter.texel(random.below(200), random.below(200)) = V(random.decades(-2.0, 2.0), 1.0f, random.unit());
+    }
+    const double truth = emitter.mean().x + emitter.mean().y + emitter.mean().z;
+    for (const double tolerance : {0.05, 0.0025}) {
+        const EmitterSampler points(emitter, {.pieces = 16.0, .tolerance = tolerance});
+        EXPECT_DOUBLE_EQ(points.area(), 1.0);
+        EXPECT_LE(points.relative_error(), tolerance);
+        EXPECT_NEAR(points.power() / truth, 1.0, 5.0 * points.relative_error());
+    }
+    // What runs out of cuts says so.
+    const EmitterSampler rough(emitter, {.pieces = 16.0, .most_cuts = 16});
+    EXPECT_GT(rough.relative_error(), 0.0025);
+}
+
+TEST(EmitterSampler, HasNoSamplesWhereAllIsBlack) {
+    const SpottedSquare emitter(64);
+    const EmitterSampler points(emitter);
+    EXPECT_EQ(points.power(), 0.0);
+    EXPECT_TRUE(points.samples(10).empty());
+}
+
+TEST(EmitterSampler, OfAMapOfOneColorIsThatOfPlainTriangles) {
+    SpottedSquare even(32);
+    for (std::size_t y = 0; y < 32; ++y) {
+        for (std::size_t x = 0; x < 32; ++x) even.texel(x, y) = V(0.5f, 0.25f, 1.0f);
+    }
+    const Triangles triangles = rectangle(1.0f, 1.0f, V(0.5f, 0.25f, 1.0f));
+    const EmissiveTriangles<V> plain(triangles);
+    const auto a = EmitterSampler(even).samples(50), b = EmitterSampler(plain).samples(50);
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        EXPECT_EQ(a[i].position, b[i].position);
+        for (int c = 0; c < 3; ++c) EXPECT_FLOAT_EQ(a[i].intensity[c], b[i].intensity[c]);
+    }
+}
+
+/// The rectangle 3 x 2, turned in space, in x by y cells.
+Triangles tessellated(int x, int y) {
+    const auto at = [](double u, double v) {
+        return V(glm::dvec3(1.0, 2.0, 3.0) + u * glm::dvec3(2.4, 1.8, 0.0) + v * glm::dvec3(0.0, 0.0, 2.0));
+    };
+    Triangles triangles;
+    for (int i = 0; i < x; ++i) {
+        for (int j = 0; j < y; ++j) {
+            const V a = at(double(i) / x, double(j) / y), b = at(double(i + 1) / x, double(j) / y);
+            const V c = at(double(i + 1) / x, double(j + 1) / y), d = at(double(i) / x, double(j + 1) / y);
+            triangles.push_back({a, b, c, V(1.0f)});
+            triangles.push_back({a, c, d, V(1.0f)});
+        }
+    }
+    return triangles;
+}
+
+TEST(AreaLights, OfAFlatSurfaceDoNotDependOnItsTriangles) {
+    const auto distance_of = [](const Triangles& one, const Triangles& other, const auto& sampler) {
+        const auto a = area_lights(EmissiveTriangles<V>(one), 100, sampler);
+        const auto b = area_lights(EmissiveTriangles<V>(other), 100, sampler);
+        float largest = a.size() == b.size() ? 0.0f : 1e30f;
+        for (std::size_t i = 0; i < a.size(); ++i) {
+            largest = std::max({largest, glm::distance(a[i].position, b[i].position),
+                                glm::distance(a[i].intensity, b[i].intensity), glm::distance(a[i].axis, b[i].axis)});
+        }
+        return largest;
+    };
+    const Triangles coarse = tessellated(1, 1);
+    Triangles with_flat_ones = tessellated(4, 3);
+    with_flat_ones.push_back({V(1, 2, 3), V(1, 2, 3), V(1, 2, 4), V(1.0f)});
+    for (const Triangles& fine : {tessellated(2, 5), tessellated(1, 200), tessellated(30, 20), with_flat_ones}) {
+        EXPECT_LT(distance_of(coarse, fine, ScrambledSobol{3}), 1e-4f);
+        EXPECT_LT(distance_of(coarse, fine, CenteredRecurrence{}), 1e-4f);
+        EXPECT_LT(distance_of(coarse, fine, IndependentSampler{4}), 1e-4f);
+    }
+}
+
+TEST(AreaLights, LieOnAFlatSurfaceOfAnyOutline) {
+    // A comb: half of its rectangle. Each light lies on the triangle that it is said to lie on.
+    Triangles comb;
+    for (int i = 0; i < 10; ++i) {
+        const float x = float(2 * i);
+        const V a(x, 0, 0), b(x + 1, 0, 0), c(x + 1, 5, 0), d(x, 5, 0);
+        comb.push_back({a, b, c, V(2.0f)});
+        comb.push_back({a, c, d, V(2.0f)});
+    }
+    const EmissiveTriangles<V> emitter(comb);
+    std::vector<int> on_tooth(10);
+    for (const auto& s : EmitterSampler(emitter).samples(1000)) {
+        const auto tooth = static_cast<std::size_t>(s.position.x / 2.0f);
+        EXPECT_LE(s.position.x, 2.0f * float(tooth) + 1.0001f);
+        EXPECT_EQ(s.triangle / 2, tooth);
+        EXPECT_EQ(s.normal, V(0, 0, 1));
+        EXPECT_FLOAT_EQ(s.intensity.x, 2.0f * 50.0f / 1000.0f);
+        ++on_tooth[tooth];
+    }
+    for (const int n : on_tooth) EXPECT_NEAR(n, 100, 15);
 }
 
 std::string refusal(const Triangles& triangles) {

@@ -12,7 +12,7 @@
 namespace lightcuts::test {
 namespace {
 
-static_assert(Sampler<ScrambledSobol> && Sampler<IndependentSampler>);
+static_assert(Sampler<ScrambledSobol> && Sampler<IndependentSampler> && Sampler<CenteredRecurrence>);
 
 TEST(ScrambledSobol, PutsOneNumberIntoEachElementaryBox) {
     constexpr std::uint32_t count = 256;
@@ -53,6 +53,27 @@ TEST(ScrambledSobol, IsUniformOverSeedsAndUncorrelatedBetweenPairs) {
     Mean between;
     for (std::uint32_t i = 0; i < 4096; ++i) between.add((sampler(i, 0) - 0.5) * (sampler(i, 2) - 0.5));
     EXPECT_LT(std::fabs(between.value()), 0.005);
+}
+
+TEST(CenteredRecurrence, BeginsInTheMiddleAndIsEvenForAnyCount) {
+    const CenteredRecurrence sampler;
+    EXPECT_EQ(sampler(0, 2), 0.5);
+    EXPECT_EQ(sampler(0, 3), 0.5);
+    for (const std::uint32_t count : {10u, 37u, 100u, 1000u}) {
+        double worst = 0.0;
+        for (int x = 1; x <= 8; ++x) {
+            for (int y = 1; y <= 8; ++y) {
+                int inside = 0;
+                for (std::uint32_t i = 0; i < count; ++i) {
+                    ASSERT_TRUE(sampler(i, 1) >= 0.0 && sampler(i, 1) < 1.0);
+                    inside += sampler(i, 2) * 8.0 < x && sampler(i, 3) * 8.0 < y ? 1 : 0;
+                }
+                worst = std::max(worst, std::fabs(inside / double(count) - x * y / 64.0));
+            }
+        }
+        // Independent points would give about 0.8 / sqrt(count).
+        EXPECT_LE(worst, 1.7 / std::pow(double(count), 0.8)) << count;
+    }
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -10,12 +9,12 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/trigonometric.hpp>
+#include <lightcuts/source/area.hpp>
+#include <lightcuts/source/sampler.hpp>
 
-#include "lights/area_samples.hpp"
 #include "scenes/builtin.hpp"
 #include "scenes/furniture.hpp"
 #include "scenes/shapes.hpp"
-#include "triangle.hpp"
 
 namespace render {
 namespace {
@@ -37,6 +36,16 @@ constexpr std::array lamps{Lamp{{-2.0f, 2.6f, 0.6f}, {26.0f, 21.0f, 14.0f}},
 /// Lights lie this far off their surface, in meters.
 constexpr float light_offset = 1e-3f;
 
+/// All triangles of a scene, as if they shone alike: points of equal power are points of equal area.
+struct EvenEmitter {
+    const Scene& scene;
+
+    std::size_t triangle_count() const { return scene.triangles.size(); }
+    const glm::vec3& corner(std::uint32_t t, int k) const { return scene.positions[scene.triangles[t][k]]; }
+    static float radiance(std::uint32_t, const glm::vec2&) { return 1.0f; }
+    static bool is_textured(std::uint32_t) { return false; }
+};
+
 class Room {
 public:
     Room() : m_(scene_) {
@@ -47,24 +56,23 @@ public:
     }
 
     void add_lights(std::size_t count) {
-        std::vector<std::uint32_t> all(scene_.triangles.size());
-        std::iota(all.begin(), all.end(), 0u);
-        const double area = area_of(scene_, all);
+        const EvenEmitter all{scene_};
+        const lightcuts::EmitterSampler surfaces(all);
 
         // Points that the furniture hides are left out; take so many that `count` remain.
         const auto open_points = [&](std::size_t tries) {
-            std::vector<AreaSample> points = spread_by_area(scene_, all, tries);
-            std::erase_if(points, [&](const AreaSample& s) { return is_hidden(lifted(s)); });
+            std::vector<Point> points = surfaces.samples(tries, lightcuts::CenteredRecurrence{});
+            std::erase_if(points, [&](const Point& s) { return is_hidden(lifted(s)); });
             return points;
         };
         std::size_t tries = count + count / 4 + 16;
-        std::vector<AreaSample> open = open_points(tries);
+        std::vector<Point> open = open_points(tries);
         while (open.size() < count) open = open_points(tries += tries / 2);
 
-        const double patch = area / static_cast<double>(tries) * static_cast<double>(open.size()) /
+        const double patch = surfaces.area() / static_cast<double>(tries) * static_cast<double>(open.size()) /
                              static_cast<double>(count);
         for (std::size_t i = 0; i < count; ++i) {
-            const AreaSample& s = open[i * open.size() / count];
+            const Point& s = open[i * open.size() / count];
             scene_.oriented.push_back({lifted(s), s.normal, reflected(s) * static_cast<float>(patch)});
         }
     }
@@ -72,7 +80,9 @@ public:
     Scene scene() { return std::move(scene_); }
 
 private:
-    static glm::vec3 lifted(const AreaSample& s) { return s.position + light_offset * s.normal; }
+    using Point = lightcuts::EmitterSample<float>;
+
+    static glm::vec3 lifted(const Point& s) { return s.position + light_offset * s.normal; }
 
     bool is_hidden(const glm::vec3& p) const {
         constexpr float gap = 0.5f * light_offset;
@@ -82,7 +92,7 @@ private:
     }
 
     /// Radiance that the surface sends back of the lamps' light, without shadows.
-    glm::vec3 reflected(const AreaSample& s) const {
+    glm::vec3 reflected(const Point& s) const {
         glm::vec3 irradiance(0.08f);  // keeps what no lamp sees from being dark
         for (const Lamp& lamp : lamps) {
             const glm::vec3 to = lamp.position - s.position;

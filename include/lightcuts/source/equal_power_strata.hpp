@@ -20,6 +20,7 @@ public:
             sums_[static_cast<std::size_t>(i)] += static_cast<double>(channel(s, i)) * scale;
         }
     }
+    const auto& sums() const { return sums_; }
     S value() const {
         return make_spectrum<S>([&](int i) { return sums_[static_cast<std::size_t>(i)]; });
     }

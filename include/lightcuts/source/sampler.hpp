@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cmath>
 #include <concepts>
 #include <cstdint>
 
@@ -87,6 +89,19 @@ struct IndependentSampler {
 
     constexpr double operator()(std::uint32_t index, std::uint32_t dimension) const {
         return uniform01(hash_keys(seed, index, dimension));
+    }
+};
+
+/// Not random: each light is in the middle of its own share of the power (dimension 0 is always 1/2), and dimensions 2
+/// and 3 are the additive recurrence of the plastic number from the middle of the square [Roberts 2018], even for any
+/// count. Dimension 1 is that of the golden ratio; all others are `IndependentSampler`.
+struct CenteredRecurrence {
+    double operator()(std::uint32_t index, std::uint32_t dimension) const {
+        constexpr std::array starts{0.5, 0.0, 0.5, 0.5};
+        constexpr std::array steps{0.0, 0.6180339887498949, 0.7548776662466927, 0.5698402909980532};
+        if (dimension >= steps.size()) return IndependentSampler{}(index, dimension);
+        const double turn = starts[dimension] + steps[dimension] * static_cast<double>(index);
+        return turn - std::floor(turn);
     }
 };
 

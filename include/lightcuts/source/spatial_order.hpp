@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <glm/common.hpp>
@@ -11,40 +12,48 @@
 
 namespace lightcuts::detail {
 
-/// An order of points in which consecutive ones lie close together: boxes are halved across their longest side, and
-/// the half that lies closer to the last point goes first. cost: O(N log N)
-class SpatialOrder {
-public:
-    explicit SpatialOrder(std::span<const glm::dvec3> points) : points_(points) { order_.reserve(points.size()); }
+/// The bits of x, each followed by two zeros. pre: x < 2^20
+constexpr std::uint64_t spread_bits(std::uint64_t x) {
+    x = (x | (x << 32)) & 0x001f00000000ffffu;
+    x = (x | (x << 16)) & 0x001f0000ff0000ffu;
+    x = (x | (x << 8)) & 0x100f00f00f00f00fu;
+    x = (x | (x << 4)) & 0x10c30c30c30c30c3u;
+    return (x | (x << 2)) & 0x1249249249249249u;
+}
 
-    /// Appends `members` to the order, which they are taken out of.
-    void append(std::span<std::uint32_t> members) {
-        glm::dvec3 lo(0.0), hi(0.0);
-        for (std::size_t i = 0; i < members.size(); ++i) {
-            const glm::dvec3& p = points_[members[i]];
-            lo = i == 0 ? p : (glm::min)(lo, p);
-            hi = i == 0 ? p : (glm::max)(hi, p);
-        }
-        const glm::dvec3 size = hi - lo;
-        const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-        const double middle = 0.5 * (lo[axis] + hi[axis]);
-        const auto high = std::partition(members.begin(), members.end(),
-                                         [&](std::uint32_t i) { return points_[i][axis] <= middle; });
-        const auto low_count = static_cast<std::size_t>(high - members.begin());
-        if (low_count == members.size()) {  // one place
-            std::sort(members.begin(), members.end());
-            order_.insert(order_.end(), members.begin(), members.end());
-            return;
-        }
-        const bool low_first = order_.empty() || points_[order_.back()][axis] <= middle;
-        append(low_first ? members.first(low_count) : members.subspan(low_count));
-        append(low_first ? members.subspan(low_count) : members.first(low_count));
-    }
-    const std::vector<std::uint32_t>& indices() const { return order_; }
+/// One of the six directions along the axes: the one nearest to `normal`.
+inline std::uint64_t facing_of(const glm::dvec3& normal) {
+    const glm::dvec3 size = glm::abs(normal);
+    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    return 2 * static_cast<std::uint64_t>(axis) + (normal[axis] < 0.0 ? 1u : 0u);
+}
 
-private:
-    std::span<const glm::dvec3> points_;
-    std::vector<std::uint32_t> order_;
+/// A place on a surface.
+struct OrientedPlace {
+    glm::dvec3 position;
+    glm::dvec3 normal;  ///< of any length
 };
+
+/// An order of places in which consecutive ones face alike and lie close together: the six directions of facing, and
+/// for each the Morton order in a cube from `low` on, of side `size` > 0, that holds all. Places of one cell stay in
+/// their order. cost: O(N log N)
+inline std::vector<std::uint32_t> spatial_order(std::span<const OrientedPlace> places, const glm::dvec3& low,
+                                                double size) {
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> keys;
+    keys.reserve(places.size());
+    for (const OrientedPlace& place : places) {
+        std::uint64_t key = facing_of(place.normal) << 60;
+        for (int i = 0; i < 3; ++i) {
+            const double cell = std::clamp((place.position[i] - low[i]) / size * 0x1p20, 0.0, 0x1p20 - 1.0);
+            key |= spread_bits(static_cast<std::uint64_t>(cell)) << i;
+        }
+        keys.emplace_back(key, static_cast<std::uint32_t>(keys.size()));
+    }
+    std::sort(keys.begin(), keys.end());
+    std::vector<std::uint32_t> order;
+    order.reserve(keys.size());
+    for (const auto& key : keys) order.push_back(key.second);
+    return order;
+}
 
 }  // namespace lightcuts::detail

@@ -1,21 +1,21 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include "../core/invalid_input.hpp"
 #include "emitter.hpp"
-#include "equal_power_strata.hpp"
 
 namespace lightcuts::detail {
 
@@ -48,12 +48,14 @@ bool is_textured(const E& emitter, std::uint32_t t) {
 /// Part of one side of a triangle.
 template <Spectrum S>
 struct TrianglePiece {
-    std::array<glm::vec2, 3> corners;  ///< uv: sums of powers of 1/2, exact in float
+    PieceCorners corners;  ///< uv: sums of powers of 1/2, exact in float
     std::uint32_t triangle;
     bool back;
     double area;
-    S radiance;  ///< mean
+    S radiance;                               ///< mean
+    glm::vec2 lit{1.0f / 3.0f, 1.0f / 3.0f};  ///< uv of a point that shines, if the mean is not black
 
+    double power() const { return area * channel_sum(radiance); }
     glm::dvec2 middle() const {
         return (glm::dvec2(corners[0]) + glm::dvec2(corners[1]) + glm::dvec2(corners[2])) / 3.0;
     }
@@ -63,7 +65,38 @@ struct TrianglePiece {
         return (1.0 - s) * glm::dvec2(corners[0]) + s * (1.0 - y) * glm::dvec2(corners[1]) +
                s * y * glm::dvec2(corners[2]);
     }
+    /// False if corners of its parts might not be exact in float.
+    bool can_be_halved() const {
+        constexpr float smallest = 0x1p-21f;
+        const auto& [a, b, c] = corners;
+        const glm::vec2 extent = (glm::max)(a, (glm::max)(b, c)) - (glm::min)(a, (glm::min)(b, c));
+        return extent.x > smallest || extent.y > smallest;
+    }
+    /// Its parts, cut from the middle of the edge that begins at corner `edge`.
+    std::array<TrianglePiece, 2> halves(std::size_t edge) const {
+        const glm::vec2 a = corners[edge], b = corners[(edge + 1) % 3], c = corners[(edge + 2) % 3];
+        const glm::vec2 halfway = 0.5f * (a + b);
+        std::array<TrianglePiece, 2> parts{*this, *this};
+        parts[0].corners = {a, halfway, c};
+        parts[1].corners = {halfway, b, c};
+        parts[0].area = parts[1].area = 0.5 * area;
+        return parts;
+    }
 };
+
+/// The corner at which the edge begins that is longest in space.
+inline std::size_t longest_edge(const Facet& facet, const PieceCorners& corners) {
+    std::size_t from = 0;
+    double longest = -1.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double length = glm::distance(facet.at(corners[i]), facet.at(corners[(i + 1) % 3]));
+        if (length > longest) {
+            longest = length;
+            from = i;
+        }
+    }
+    return from;
+}
 
 /// throws: invalid_input naming the triangle
 template <Spectrum S>
@@ -77,52 +110,10 @@ void validate_radiance(const S& radiance, std::uint32_t triangle) {
     }
 }
 
-/// Mean over a piece by a rule of sixteen points: the middles of its sixteenths.
+/// The sides of the triangles of `emitter` that have an area, whole, with the radiance of those without a texture.
+/// throws: invalid_input naming the triangle
 template <EmissiveMesh E>
-emitter_spectrum<E> mean_radiance(const E& emitter, const TrianglePiece<emitter_spectrum<E>>& piece) {
-    const auto& [a, b, c] = piece.corners;
-    const glm::vec2 along = 0.25f * (b - a), up = 0.25f * (c - a), third = (along + up) / 3.0f;
-    SpectrumSum<emitter_spectrum<E>> sum;
-    const auto take = [&](const glm::vec2& uv) {
-        const auto radiance = emitter.radiance(piece.triangle, uv);
-        validate_radiance(radiance, piece.triangle);
-        sum.add(radiance, 1.0 / 16.0);
-    };
-    for (int i = 0; i < 4; ++i) {
-        for (int j = 0; j < 4 - i; ++j) {
-            const glm::vec2 corner = a + along * static_cast<float>(i) + up * static_cast<float>(j);
-            take(corner + third);
-            if (i + j < 3) take(corner + 2.0f * third);
-        }
-    }
-    return sum.value();
-}
-
-/// Appends the halves of `piece`, cut at the middle of its longest edge.
-template <Spectrum S>
-void halve(const Facet& facet, const TrianglePiece<S>& piece, std::vector<TrianglePiece<S>>& out) {
-    std::size_t from = 0;
-    double longest = -1.0;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const double length = glm::distance(facet.at(piece.corners[i]), facet.at(piece.corners[(i + 1) % 3]));
-        if (length > longest) {
-            longest = length;
-            from = i;
-        }
-    }
-    const glm::vec2 a = piece.corners[from], b = piece.corners[(from + 1) % 3], c = piece.corners[(from + 2) % 3];
-    const glm::vec2 middle = 0.5f * (a + b);
-    TrianglePiece<S> half = piece;
-    half.area = 0.5 * piece.area;
-    half.corners = {a, middle, c};
-    out.push_back(half);
-    half.corners = {middle, b, c};
-    out.push_back(half);
-}
-
-/// The sides of the triangles of `emitter` that shine, whole. throws: invalid_input naming the triangle
-template <EmissiveMesh E>
-std::vector<TrianglePiece<emitter_spectrum<E>>> shining_sides(const E& emitter) {
+std::vector<TrianglePiece<emitter_spectrum<E>>> sides_of(const E& emitter) {
     std::vector<TrianglePiece<emitter_spectrum<E>>> sides;
     const std::size_t count = emitter.triangle_count();
     for (std::uint32_t t = 0; t < count; ++t) {
@@ -132,7 +123,8 @@ std::vector<TrianglePiece<emitter_spectrum<E>>> shining_sides(const E& emitter) 
             LIGHTCUTS_THROW(invalid_input("emitter, triangle " + std::to_string(t) + ": a corner is not finite"));
         }
         if (!(area > 0.0)) continue;
-        TrianglePiece<emitter_spectrum<E>> side{{glm::vec2(0.0f), {1.0f, 0.0f}, {0.0f, 1.0f}}, t, false, area, {}};
+        TrianglePiece<emitter_spectrum<E>> side{
+            {glm::vec2(0.0f), {1.0f, 0.0f}, {0.0f, 1.0f}}, t, false, area, black<emitter_spectrum<E>>()};
         if (!is_textured(emitter, t)) {
             side.radiance = emitter.radiance(t, glm::vec2(1.0f / 3.0f));
             validate_radiance(side.radiance, t);
@@ -141,50 +133,24 @@ std::vector<TrianglePiece<emitter_spectrum<E>>> shining_sides(const E& emitter) 
         side.back = true;
         if (is_two_sided(emitter, t)) sides.push_back(side);
     }
-    if (sides.empty()) {
-        LIGHTCUTS_THROW(invalid_input("emitter: its " + std::to_string(count) + " triangles have no area"));
-    }
     return sides;
 }
 
-/// Cuts the sides of an emitter: no piece has more than `share` of the power, none of a textured triangle more than
-/// `textured_share` of the area; over each the radiance counts as constant.
-template <EmissiveMesh E>
-std::vector<TrianglePiece<emitter_spectrum<E>>> cut_sides(const E& emitter, double share, double textured_share) {
-    using Piece = TrianglePiece<emitter_spectrum<E>>;
-    const std::vector<Piece> sides = shining_sides(emitter);
-    double area = 0.0;
-    for (const Piece& side : sides) area += side.area;
-
-    const auto cut = [&](std::span<const Piece> wholes, auto&& is_small, std::vector<Piece>& out) {
-        std::vector<Piece> open;
-        for (const Piece& whole : wholes) {
-            const Facet facet = facet_of(emitter, whole.triangle);
-            open.push_back(whole);
-            while (!open.empty()) {
-                const Piece piece = open.back();
-                open.pop_back();
-                if (is_small(piece)) {
-                    out.push_back(piece);
-                } else {
-                    halve(facet, piece, open);
-                }
-            }
+/// Appends `whole`, cut at the middle of its longest edge until `is_small(piece)`.
+template <EmissiveMesh E, class IsSmall>
+void cut_until(const E& emitter, const TrianglePiece<emitter_spectrum<E>>& whole, IsSmall&& is_small,
+               std::vector<TrianglePiece<emitter_spectrum<E>>>& out) {
+    const Facet facet = facet_of(emitter, whole.triangle);
+    std::vector<TrianglePiece<emitter_spectrum<E>>> open{whole};
+    while (!open.empty()) {
+        const auto piece = open.back();
+        open.pop_back();
+        if (is_small(piece) || !piece.can_be_halved()) {
+            out.push_back(piece);
+        } else {
+            for (const auto& half : piece.halves(longest_edge(facet, piece.corners))) open.push_back(half);
         }
-    };
-    std::vector<Piece> even;
-    cut(
-        sides, [&](const Piece& p) { return !is_textured(emitter, p.triangle) || p.area <= textured_share * area; },
-        even);
-    double power = 0.0;
-    for (Piece& piece : even) {
-        if (is_textured(emitter, piece.triangle)) piece.radiance = mean_radiance(emitter, piece);
-        power += piece.area * channel_sum(piece.radiance);
     }
-    std::vector<Piece> pieces;
-    cut(
-        even, [&](const Piece& p) { return p.area * channel_sum(p.radiance) <= share * power; }, pieces);
-    return pieces;
 }
 
 }  // namespace lightcuts::detail

@@ -6,9 +6,12 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 #include <lightcuts/core/random.hpp>
-#include <render/lights/emission_samples.hpp>
+#include <lightcuts/source/emitter.hpp>
+#include <render/lights/emission_range.hpp>
 #include <render/lights/emitters.hpp>
 #include <render/surfaces/surface_colors.hpp>
 
@@ -288,21 +291,22 @@ TEST(EmissionRange, BoundsWhatIsEmitted) {
         if (random() < 0.5f) m.model = Material::Model::unlit;
         const std::vector<std::uint32_t> materials{0};
         const render::EmissionRange range(s, materials);
-        render::Piece piece;
-        piece.corners = {glm::vec2(0, 0), glm::vec2(1, 0), glm::vec2(0, 1)};
-        piece.triangle = round % 2 == 0 ? 0 : 1;
-        piece.area = 1.0;
+        const std::uint32_t triangle = round % 2 == 0 ? 0 : 1;
+        lightcuts::PieceCorners corners{glm::vec2(0, 0), glm::vec2(1, 0), glm::vec2(0, 1)};
         for (int cut = 0; cut < 24; ++cut) {
-            const auto bounds = range.over(piece);
+            const auto bounds = range.over(triangle, corners);
             for (int i = 0; i < 8; ++i) {
-                const glm::vec2 at(piece.at(static_cast<double>(random()), static_cast<double>(random())));
-                const dvec3 seen(render::emitted_radiance(s, piece.triangle, at.x, at.y, true));
+                const float along = std::sqrt(random());
+                const glm::vec2 at = glm::mix(corners[0], glm::mix(corners[1], corners[2], random()), along);
+                const dvec3 seen(render::emitted_radiance(s, triangle, at.x, at.y, true));
                 for (int c = 0; c < 3; ++c) {
-                    ASSERT_GE(seen[c], bounds.low[c] - 1e-5) << round << " " << cut;
-                    ASSERT_LE(seen[c], bounds.high[c] + 1e-5) << round << " " << cut;
+                    ASSERT_GE(seen[c], static_cast<double>(bounds.low[c]) - 1e-5) << round << " " << cut;
+                    ASSERT_LE(seen[c], static_cast<double>(bounds.high[c]) + 1e-5) << round << " " << cut;
                 }
             }
-            piece = render::halves(piece, range.longest_edge(piece))[random() < 0.5f ? 0 : 1];
+            const std::size_t edge = range.longest_edge(triangle, corners).value_or(0);
+            const glm::vec2 halfway = 0.5f * (corners[edge] + corners[(edge + 1) % 3]);
+            corners[random() < 0.5f ? edge : (edge + 1) % 3] = halfway;
         }
     }
 }

@@ -8,7 +8,6 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/trigonometric.hpp>
-#include <render/lights/area_samples.hpp>
 #include <render/lights/emitters.hpp>
 #include <render/scenes/shapes.hpp>
 #include <render/triangle.hpp>

@@ -9,7 +9,6 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <render/io/load_scene.hpp>
-#include <render/lights/area_samples.hpp>
 #include <render/lights/emitters.hpp>
 #include <render/lights/surroundings.hpp>
 #include <render/scenes/studio_map.hpp>
