@@ -292,13 +292,13 @@ TEST(EmitterSampler, KnowsThePowerToWithinItsError) {
     }
     const double truth = emitter.mean().x + emitter.mean().y + emitter.mean().z;
     for (const double tolerance : {0.05, 0.0025}) {
-        const EmitterSampler points(emitter, {.pieces = 16.0, .tolerance = tolerance});
+        const EmitterSampler points(emitter, {.pieces = 16, .tolerance = tolerance});
         EXPECT_DOUBLE_EQ(points.area(), 1.0);
         EXPECT_LE(points.relative_error(), tolerance);
         EXPECT_NEAR(points.power() / truth, 1.0, 5.0 * points.relative_error());
     }
     // What runs out of cuts says so.
-    const EmitterSampler rough(emitter, {.pieces = 16.0, .most_cuts = 16});
+    const EmitterSampler rough(emitter, {.pieces = 16, .most_cuts = 16});
     EXPECT_GT(rough.relative_error(), 0.0025);
 }
 

@@ -114,7 +114,7 @@ public:
     /// Sum of channels of radiance x area on one side; to within 5 % where it varies.
     double power(const EmissiveSurface& surface) const {
         lightcuts::EmissionAccuracy accuracy = usual_;
-        accuracy.pieces = 16.0;
+        accuracy.pieces = 16;
         accuracy.tolerance = 0.05;
         const SceneEmitter emitter(scene_, range_, surface.triangles);
         return Sampler(emitter, accuracy).power();
@@ -123,9 +123,8 @@ public:
     /// Of the fronts: `count` samples of equal power, none iff nothing is emitted.
     std::vector<lightcuts::EmitterSample<>> samples(const EmissiveSurface& surface, std::size_t count) {
         // Fewer pieces where so few lights are wanted that there must be very many emitters.
-        const double points = static_cast<double>(count);
         lightcuts::EmissionAccuracy accuracy = usual_;
-        accuracy.pieces = std::max(4.0 * points, std::min(256.0 * points, accuracy.pieces));
+        accuracy.pieces = std::max(4 * count, std::min(256 * count, accuracy.pieces));
         const SceneEmitter emitter(scene_, range_, surface.triangles);
         const Sampler sampler(emitter, accuracy);
         largest_error_ = std::max(largest_error_, sampler.relative_error());

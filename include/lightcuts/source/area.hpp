@@ -60,7 +60,7 @@ std::vector<std::uint32_t> compact_order(const E& emitter,
 }
 
 /// Pieces are this much smaller than a sample's share, so that a share is a compact patch.
-inline constexpr double pieces_per_sample = 4.0;
+inline constexpr std::size_t pieces_per_sample = 4;
 
 }  // namespace detail
 
@@ -158,7 +158,7 @@ private:
 
     template <Sampler Sequence>
     std::vector<EmitterSample<S>> samples_of_patches(std::size_t count, const Sequence& sampler) const {
-        const double largest = estimate_.power / (detail::pieces_per_sample * static_cast<double>(count));
+        const double largest = estimate_.power / static_cast<double>(detail::pieces_per_sample * count);
         std::vector<Piece> pieces;
         for (std::size_t i = 0; i < estimate_.pieces.size(); ++i) {
             const Piece& piece = estimate_.pieces[i];
@@ -216,7 +216,7 @@ template <EmissiveMesh E, Sampler Sequence = ScrambledSobol>
 std::vector<OrientedPointLight<emitter_spectrum<E>>> area_lights(const E& emitter, std::size_t count,
                                                                  const Sequence& sampler = {}) {
     EmissionAccuracy accuracy;
-    accuracy.pieces = (std::max)(accuracy.pieces, detail::pieces_per_sample * static_cast<double>(count));
+    accuracy.pieces = (std::max)(accuracy.pieces, detail::pieces_per_sample * count);
     const EmitterSampler<E> points(emitter, accuracy);
     if (!(points.area() > 0.0)) {
         LIGHTCUTS_THROW(

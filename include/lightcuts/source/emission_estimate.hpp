@@ -19,7 +19,7 @@ namespace lightcuts {
 /// How well the light of textured emitters is known. None of it matters to triangles of one radiance each.
 struct EmissionAccuracy {
     /// At least so many pieces of equal area are looked at, so that lights lie where the light is.
-    double pieces = 4096.0;
+    std::size_t pieces = 4096;
     /// Of a `BoundedEmissiveMesh`: pieces are cut until the standard deviation of the power is no more than this share.
     double tolerance = 0.0025;
     /// Of a `BoundedEmissiveMesh`: about the most pieces to be looked at beyond the first ones.
@@ -113,7 +113,7 @@ public:
         measured_ = 0;
         const std::vector<Piece> sides = sides_of(emitter_);
         for (const Piece& side : sides) estimate_.area += side.area;
-        const double largest = estimate_.area / (std::max)(accuracy.pieces, 1.0);
+        const double largest = estimate_.area / static_cast<double>((std::max)(accuracy.pieces, std::size_t{1}));
         std::vector<Piece> parts;
         for (const Piece& side : sides) {
             if (!is_textured(emitter_, side.triangle)) {

@@ -88,7 +88,7 @@ void expect_power(Scene& s, const dvec3& mean, const std::string& what) {
     }
 }
 
-TEST(EmissionSamples, FindSpotsDownToATexel) {
+TEST(EmissionMaps, FindSpotsDownToATexel) {
     std::uint64_t drawn = 0;
     for (const auto& [width, height] : {std::pair{64, 64}, {512, 128}, {1024, 1024}, {2048, 2048}, {2047, 3}}) {
         for (const int size : {1, 2, 3, 16}) {
@@ -113,7 +113,7 @@ TEST(EmissionSamples, FindSpotsDownToATexel) {
     }
 }
 
-TEST(EmissionSamples, KeepTheirPowerUnderTransforms) {
+TEST(EmissionMaps, KeepTheirPowerUnderTransforms) {
     Texture map = map_of(512, 256);
     add_spot(map, 100, 31, 1, {1.0f, 0.0f, 0.0f});
     add_spot(map, 300, 200, 2, {0.0f, 3.0f, 0.0f});
@@ -139,7 +139,7 @@ TEST(EmissionSamples, KeepTheirPowerUnderTransforms) {
     expect_power(s, mean, "clamped");
 }
 
-TEST(EmissionSamples, AreThoseOfWhatIsThere) {
+TEST(EmissionMaps, AreThoseOfWhatIsThere) {
     // A bright spot under a mask that hides half of it, and one that is half there: nearest, so that sums are exact.
     const auto nearest = Texture::Filter::nearest;
     for (const auto alpha : {Material::Alpha::mask, Material::Alpha::blend}) {
@@ -177,7 +177,7 @@ TEST(EmissionSamples, AreThoseOfWhatIsThere) {
     }
 }
 
-TEST(EmissionSamples, ShareOutManySpotsWhereTheyAre) {
+TEST(EmissionMaps, ShareOutManySpotsWhereTheyAre) {
     // By a probe below, of every texel: a grid of spots, stars of random brightness, and a smooth glow with a sun in
     // it.
     const dvec3 probe(0.4, 0.0, 0.9);
@@ -220,7 +220,7 @@ TEST(EmissionSamples, ShareOutManySpotsWhereTheyAre) {
     }
 }
 
-TEST(EmissionSamples, AreTheSameEachTime) {
+TEST(EmissionMaps, AreTheSameEachTime) {
     Texture map = map_of(256, 256);
     for (std::uint64_t i = 0; i < 300; ++i) {
         add_spot(map, static_cast<int>(256 * draw(i, 6)), static_cast<int>(256 * draw(i, 7)), 2, glm::vec3(1.0f));
@@ -236,7 +236,7 @@ TEST(EmissionSamples, AreTheSameEachTime) {
     }
 }
 
-TEST(EmissionSamples, OfAMapOfOneColorAreThoseWithoutAMap) {
+TEST(EmissionMaps, OfAMapOfOneColorAreThoseWithoutAMap) {
     Texture map = map_of(32, 16);
     for (glm::vec4& t : map.texels) t = glm::vec4(0.5f, 0.25f, 1.0f, 1.0f);
     Scene s = panel(map);
@@ -252,7 +252,7 @@ TEST(EmissionSamples, OfAMapOfOneColorAreThoseWithoutAMap) {
     }
 }
 
-TEST(EmissionSamples, NameAMapThatLightsNothing) {
+TEST(EmissionMaps, NameAMapThatLightsNothing) {
     Texture map = map_of(64, 64);
     add_spot(map, 40, 40, 4, glm::vec3(1.0f));
     Scene s = panel(map, 0.25f);  // which shows a quarter of the map that is black
