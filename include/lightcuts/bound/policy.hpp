@@ -42,6 +42,18 @@ void quick_bounds(const Policy& policy, const B& bound, const LightCluster<L>* c
     }
 }
 
+/// `policy.quick` of several pairs of a cluster of one kind and a box of receivers: units[i] for *clusters[i] at the
+/// receivers in *receivers[i], whose surfaces *bounds[i] bounds; all at once by `quick_pairs` if the policy has it.
+template <class Policy, class B, Light L>
+void quick_pair_bounds(const Policy& policy, const B* const* bounds, const LightCluster<L>* const* clusters,
+                       std::size_t count, const Box* const* receivers, spectrum_of<L>* units) {
+    if constexpr (requires { policy.quick_pairs(bounds, clusters, count, receivers, units); }) {
+        policy.quick_pairs(bounds, clusters, count, receivers, units);
+    } else {
+        for (std::size_t i = 0; i < count; ++i) units[i] = policy.quick(*bounds[i], *clusters[i], *receivers[i]);
+    }
+}
+
 }  // namespace detail
 
 /// Every factor bounded by itself, in one stage.
@@ -77,6 +89,18 @@ struct TwoStageBounds {
         for (std::size_t begin = 0; begin < count; begin += std::size_t{lane_count}) {
             const std::size_t lanes = count - begin < std::size_t{lane_count} ? count - begin : std::size_t{lane_count};
             reflection_bounds(bound, clusters + begin, static_cast<int>(lanes), receivers, units + begin);
+        }
+    }
+
+    /// `quick` of several pairs of a cluster of one kind and a box of receivers: units[i] for *clusters[i] at the
+    /// receivers in *receivers[i], whose surfaces *bounds[i] bounds.
+    template <class B, Light L>
+    void quick_pairs(const B* const* bounds, const LightCluster<L>* const* clusters, std::size_t count,
+                     const Box* const* receivers, spectrum_of<L>* units) const {
+        for (std::size_t begin = 0; begin < count; begin += std::size_t{lane_count}) {
+            const std::size_t lanes = count - begin < std::size_t{lane_count} ? count - begin : std::size_t{lane_count};
+            reflection_bounds(bounds + begin, clusters + begin, static_cast<int>(lanes), receivers + begin,
+                              units + begin);
         }
     }
 

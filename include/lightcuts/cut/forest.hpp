@@ -33,6 +33,12 @@ public:
                  (std::same_as<std::remove_cvref_t<Ts>, LightTree<Ls>> && ...))
     explicit LightForest(Ts&&... trees) = delete;
 
+    /// The tree of kind `Kind`.
+    template <std::size_t Kind>
+    const auto& tree() const {
+        return *std::get<Kind>(trees_);
+    }
+
     /// Calls `f(tree)` with the tree of kind `kind` and returns its result. pre: kind < kinds.
     template <class F>
     decltype(auto) visit(std::uint32_t kind, F&& f) const {

@@ -67,6 +67,15 @@ RefinementOptions refinement_options(const Forest& forest, const LightcutOptions
     return refinement;
 }
 
+/// Sums of estimates and bounds as a result.
+template <Spectrum S>
+CutResult<S> result_of(const ChannelSums<S>& radiance, const ChannelSums<S>& bound) {
+    CutResult<S> result;
+    result.radiance = finite(make_spectrum<S>([&](int c) { return radiance[static_cast<std::size_t>(c)]; }));
+    result.error_bound = make_spectrum<S>([&](int c) { return round_up(bound[static_cast<std::size_t>(c)]); });
+    return result;
+}
+
 /// The estimate and its error bound from a cut as it is.
 template <Spectrum S, bool Clamps>
 CutResult<S> cut_result(const Refinement<CutNode<S, Clamps>>& refinement, const RunningTotal<S, Clamps>& total,
@@ -98,9 +107,7 @@ CutResult<S> cut_result(const Refinement<CutNode<S, Clamps>>& refinement, const 
             }
         });
     }
-    CutResult<S> result;
-    result.radiance = finite(make_spectrum<S>([&](int c) { return radiance[static_cast<std::size_t>(c)]; }));
-    result.error_bound = make_spectrum<S>([&](int c) { return round_up(bound[static_cast<std::size_t>(c)]); });
+    CutResult<S> result = result_of<S>(radiance, bound);
     if constexpr (Clamps) {
         result.clamp_threshold = make_spectrum<S>([&](int c) { return threshold[static_cast<std::size_t>(c)]; });
     }

@@ -10,12 +10,12 @@
 namespace lightcuts::detail {
 
 /// The estimated total of one receiver's cut while it is refined, radiance in double, and the priorities that follow
-/// from it: what a cluster may be off by, as a share of the total.
-template <Spectrum S, bool Clamps = false>
+/// from it: what a cluster may be off by, as a share of the total. `N` has an `estimate` and a `bound`.
+template <Spectrum S, bool Clamps = false, class N = CutNode<S, Clamps>>
 class RunningTotal {
 public:
     using Sums = ChannelSums<S>;
-    using Node = CutNode<S, Clamps>;
+    using Node = N;
 
     /// The arguments are looked at only if `Clamps`.
     template <class Forest>

@@ -1,0 +1,195 @@
+#pragma once
+
+#include <array>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <ranges>
+#include <span>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "../core/reusable_list.hpp"
+#include "../cut/lightcut.hpp"
+#include "gather_forest.hpp"
+#include "product_problem.hpp"
+#include "timed_forest.hpp"
+
+namespace lightcuts {
+
+/// What a sum over pairs of gather points and lights yields.
+template <Spectrum S>
+struct GatherResult : CutResult<S> {
+    /// The largest bound of a pair of clusters left on the cut, in each channel: at most the error ratio times the
+    /// total where the refinement has converged. `error_bound` is the sum of all.
+    S largest_bound = black<S>();
+    double pairs = 0.0;  ///< gather points times lights
+};
+
+/// Storage that `gather` reuses; one for each thread. No allocation once warm. `Timed`: some lights exist at instants.
+template <Spectrum S, bool Timed = false>
+struct GatherScratch {
+    using Node = ProductNode<S, Timed>;
+
+    Refinement<Node> refinement;
+    detail::RunningTotal<S, false, Node> total;
+    ReusableList<Node> redrawn;
+    ReusableList<VisibilityQuery> queries;
+    std::vector<float> answers;
+    std::vector<S> transmittances;  ///< answers that are spectra
+};
+
+namespace detail {
+
+template <class Lights>
+inline constexpr bool is_timed_forest = false;
+template <Light... Ls>
+inline constexpr bool is_timed_forest<TimedForest<Ls...>> = true;
+
+template <Light... Ls>
+TimedForest<Ls...> without_instants(const LightForest<Ls...>& forest) {
+    static_assert(!(TimedLight<Ls> || ...), "lights with instants need a TimedForest, which says how many there are");
+    return TimedForest<Ls...>(forest);
+}
+
+template <class T>
+struct GatherLights {};
+template <TreeOrForest T>
+struct GatherLights<T> {
+    using type = decltype(without_instants(std::declval<const forest_of<T>&>()));
+};
+template <Light... Ls>
+struct GatherLights<TimedForest<Ls...>> {
+    using type = TimedForest<Ls...>;
+};
+
+}  // namespace detail
+
+/// A LightTree, a LightForest or a TimedForest.
+template <class T>
+concept GatherableLights = requires {
+    typename detail::GatherLights<T>::type;
+};
+
+/// The scratch for gathering from such lights.
+template <GatherableLights T>
+using gather_scratch_of =
+    GatherScratch<typename detail::GatherLights<T>::type::spectrum, detail::GatherLights<T>::type::timed>;
+
+namespace detail {
+
+template <class Lights, class Points, class Oracle, class Policy>
+GatherResult<typename Lights::spectrum> gather_pairs(const Lights& lights, const Points& points, const Oracle& oracle,
+                                                     GatherScratch<typename Lights::spectrum, Lights::timed>& scratch,
+                                                     const ProductOptions& options, const Policy& policy) {
+    using S = typename Lights::spectrum;
+    using Node = ProductNode<S, Lights::timed>;
+    std::uint32_t queries = 0;
+    ProductProblem<Lights, Points, Oracle, Policy> problem(lights, points, oracle, policy, options, scratch.total,
+                                                           queries, scratch.queries);
+    RefinementOptions refinement;
+    refinement.round_fraction = options.cut.round_fraction;
+    if (options.cut.max_cut > 0) refinement.max_nodes = options.cut.max_cut;
+    const auto evaluate = [&](std::span<Node> fresh) {
+        if constexpr (AnswersMany<Oracle, S>) {
+            scratch.queries.clear();
+            problem.request(fresh);
+            problem.receive(fresh, ask_many(oracle, std::span(std::as_const(scratch.queries).data(), scratch.queries.size()),
+                                            answers_for<Oracle, S>(scratch)));
+        } else {
+            problem.evaluate(fresh);
+        }
+    };
+    scratch.refinement.start(problem);
+    do {
+        evaluate(scratch.refinement.fresh());
+        scratch.refinement.absorb(problem);
+    } while (scratch.refinement.split(problem, refinement));
+
+    ChannelSums<S> radiance{}, bound{}, largest{};
+    const auto add_estimate = [&](const Node& n) {
+        for (std::size_t c = 0; c < radiance.size(); ++c) {
+            radiance[c] += static_cast<double>(channel(n.estimate, static_cast<int>(c)));
+        }
+    };
+    scratch.refinement.for_each([&](const Node& n) {
+        for (std::size_t c = 0; c < bound.size(); ++c) {
+            const auto b = static_cast<double>(channel(n.bound, static_cast<int>(c)));
+            bound[c] += b;
+            largest[c] = b > largest[c] ? b : largest[c];
+        }
+    });
+    if (options.redraw) {
+        scratch.redrawn.clear();
+        scratch.redrawn.reserve(scratch.refinement.size());
+        scratch.refinement.for_each([&](const Node& n) {
+            scratch.redrawn.append(n);
+            problem.redraw(scratch.redrawn[scratch.redrawn.size() - 1]);
+        });
+        const std::span<Node> redrawn(scratch.redrawn.data(), scratch.redrawn.size());
+        evaluate(redrawn);
+        for (const Node& n : redrawn) add_estimate(n);
+    } else {
+        scratch.refinement.for_each(add_estimate);
+    }
+    GatherResult<S> result{result_of<S>(radiance, bound)};
+    result.largest_bound = make_spectrum<S>([&](int c) { return round_up(largest[static_cast<std::size_t>(c)]); });
+    result.cut_size = static_cast<std::uint32_t>(scratch.refinement.size());
+    result.queries = queries;
+    result.stop = scratch.refinement.stop_reason();
+    result.pairs = static_cast<double>(points.point_count()) * static_cast<double>(lights.forest().light_count());
+    return result;
+}
+
+}  // namespace detail
+
+/// Sums up what all lights send to all gather points, each times the point's strength, by one cut through the graph of
+/// pairs of clusters [Multidimensional Lightcuts 2006]: a pixel, a light-map texel, a probe. `radiance` of the result
+/// is the sum of strength x lobe x geometric term x visibility x intensity over pairs that exist at one instant.
+/// `lights`: a LightTree, a LightForest, or a TimedForest where some lights exist at one instant each.
+/// `points`: a GatherForest built with as many instants as the lights have. Lights may be clamped by transfer.
+/// threads: safe with one scratch and one GatherForest each. cost: about one shadow ray, three bounds and a half for
+/// two pairs on the cut.
+/// throws: invalid_input if `options` ask for clamping by radiance or share.
+template <GatherableLights Lights, AnyGatherPoint... Gs, class Oracle, class Policy = TwoStageBounds>
+GatherResult<typename GatherForest<Gs...>::spectrum> gather(const Lights& lights, const GatherForest<Gs...>& points,
+                                                            const Oracle& oracle, gather_scratch_of<Lights>& scratch,
+                                                            const ProductOptions& options = {},
+                                                            const Policy& policy = {}) {
+    if (options.cut.clamp.has_threshold()) {
+        LIGHTCUTS_THROW(invalid_input("gather: lights may be clamped by transfer only, not by radiance or share"));
+    }
+    if constexpr (detail::is_timed_forest<Lights>) {
+        return detail::gather_pairs(lights, points, oracle, scratch, options, policy);
+    } else {
+        return detail::gather_pairs(detail::without_instants(as_forest(lights)), points, oracle, scratch, options,
+                                    policy);
+    }
+}
+
+namespace detail {
+
+/// Contiguous ranges of gather points.
+template <class Ps>
+concept GatherPoints = std::ranges::contiguous_range<Ps> && AnyGatherPoint<std::ranges::range_value_t<Ps>>;
+
+}  // namespace detail
+
+/// Sums up what all lights send to the gather points of a vector, an array or another contiguous range of one type, as
+/// the function that takes a GatherForest does. `tree`: how the tree of gather points is built.
+template <GatherableLights Lights, detail::GatherPoints Ps, class Oracle = AlwaysVisible, class Policy = TwoStageBounds>
+GatherResult<typename std::ranges::range_value_t<Ps>::spectrum> gather(const Lights& lights, const Ps& points,
+                                                                       const Oracle& oracle = {},
+                                                                       const ProductOptions& options = {},
+                                                                       GatherTreeOptions tree = {},
+                                                                       const Policy& policy = {}) {
+    using G = std::ranges::range_value_t<Ps>;
+    GatherForest<G> forest;
+    if constexpr (detail::is_timed_forest<Lights>) tree.instants = lights.instants();
+    forest.build(std::span<const G>(std::ranges::data(points), std::ranges::size(points)), tree);
+    gather_scratch_of<Lights> scratch;
+    return gather(lights, forest, oracle, scratch, options, policy);
+}
+
+}  // namespace lightcuts

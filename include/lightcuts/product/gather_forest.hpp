@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <tuple>
+#include <utility>
+
+#include "../core/random.hpp"
+#include "gather_tree.hpp"
+
+namespace lightcuts {
+
+/// Trees of the gather points of one sum, one tree for each type of gather point: diffuse and glossy lobes, phase
+/// functions. The types are fixed at compile time, and one that a renderer lacks is left out of the list. Made to be
+/// rebuilt for each pixel.
+template <AnyGatherPoint... Gs>
+    requires(sizeof...(Gs) > 0)
+class GatherForest {
+public:
+    using spectrum = typename std::tuple_element_t<0, std::tuple<Gs...>>::spectrum;
+    static_assert((std::same_as<spectrum, typename Gs::spectrum> && ...),
+                  "all gather points of a forest need the same spectrum");
+    static constexpr std::uint32_t kinds = sizeof...(Gs);
+    /// True if every gather point exists at one instant.
+    static constexpr bool timed = (TimedGatherPoint<Gs> && ...);
+
+    /// Builds the trees of other points, each in the storage of the one before. The points must stay where they are.
+    /// throws: invalid_input, see `GatherTree::build`.
+    void build(std::span<const Gs>... points, const GatherTreeOptions& options) {
+        build_from(std::index_sequence_for<Gs...>{}, options, points...);
+    }
+
+    /// Calls `f(tree)` with the tree of kind `kind` and returns its result. pre: kind < kinds.
+    template <class F>
+    decltype(auto) visit(std::uint32_t kind, F&& f) const {
+        return visit_from<0>(kind, f);
+    }
+    /// Calls `f(kind, tree)` for each kind in order.
+    template <class F>
+    void for_each(F&& f) const {
+        for_each_from<0>(f);
+    }
+
+    /// Number of gather points that have any strength.
+    std::size_t point_count() const {
+        std::size_t count = 0;
+        for_each([&](std::uint32_t, const auto& tree) { count += tree.topology().item_count(); });
+        return count;
+    }
+
+private:
+    template <std::size_t... Ks>
+    void build_from(std::index_sequence<Ks...>, GatherTreeOptions options, std::span<const Gs>... points) {
+        const std::uint64_t seed = options.seed;
+        ((options.seed = hash_keys(seed, Ks), std::get<Ks>(trees_).build(points, options)), ...);
+    }
+    template <std::size_t K, class F>
+    decltype(auto) visit_from([[maybe_unused]] std::uint32_t kind, F& f) const {
+        if constexpr (K + 1 == sizeof...(Gs)) {
+            return f(std::get<K>(trees_));
+        } else {
+            return kind == K ? f(std::get<K>(trees_)) : visit_from<K + 1>(kind, f);
+        }
+    }
+    template <std::size_t K, class F>
+    void for_each_from(F& f) const {
+        f(static_cast<std::uint32_t>(K), std::get<K>(trees_));
+        if constexpr (K + 1 < sizeof...(Gs)) for_each_from<K + 1>(f);
+    }
+
+    std::tuple<GatherTree<Gs>...> trees_;
+};
+
+}  // namespace lightcuts

@@ -1,0 +1,178 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <type_traits>
+
+#include "../bound/policy.hpp"
+#include "../core/assertion.hpp"
+#include "../core/reusable_list.hpp"
+#include "../cut/refinement.hpp"
+#include "product_node.hpp"
+
+namespace lightcuts::detail {
+
+/// Pairs of clusters of one kind each, side by side, to be bounded at once.
+template <class GatherTree, class LightTree>
+class PairBlock {
+public:
+    using B = std::remove_cvref_t<decltype(std::declval<const GatherTree&>().bound(0))>;
+    using L = typename LightTree::light_type;
+    using S = typename LightTree::spectrum;
+
+    PairBlock(const GatherTree& gather_tree, const LightTree& light_tree)
+        : gather_tree_(gather_tree), light_tree_(light_tree) {}
+
+    std::size_t size() const { return count_; }
+    bool is_full() const { return count_ == lanes; }
+    void clear() { count_ = 0; }
+    void add(std::uint32_t gather, std::uint32_t light) {
+        if constexpr (std::is_reference_v<decltype(gather_tree_.bound(gather))>) {
+            bounds_[count_] = &gather_tree_.bound(gather);
+        } else {
+            made_[count_] = gather_tree_.bound(gather);
+            bounds_[count_] = &made_[count_];
+        }
+        boxes_[count_] = &gather_tree_.clusters()[gather].box;
+        clusters_[count_] = &light_tree_.clusters()[light];
+        ++count_;
+    }
+    template <class Policy>
+    const std::array<S, static_cast<std::size_t>(lane_count)>& bound(const Policy& policy) {
+        if (count_ > 0) quick_pair_bounds(policy, bounds_.data(), clusters_.data(), count_, boxes_.data(), units_.data());
+        return units_;
+    }
+
+private:
+    static constexpr std::size_t lanes = static_cast<std::size_t>(lane_count);
+    struct NoBounds {
+        B& operator[](std::size_t) const;
+    };
+    static constexpr bool by_value = !std::is_reference_v<decltype(std::declval<const GatherTree&>().bound(0))>;
+
+    const GatherTree& gather_tree_;
+    const LightTree& light_tree_;
+    std::size_t count_ = 0;
+    std::array<const B*, lanes> bounds_;
+    std::array<const Box*, lanes> boxes_;
+    std::array<const LightCluster<L>*, lanes> clusters_;
+    [[no_unique_address]] std::conditional_t<by_value, std::array<B, lanes>, NoBounds> made_;
+    std::array<S, lanes> units_;
+};
+
+/// Bounds pairs of clusters that are about to be split, and says which side of each to split.
+template <class Lights, class Points, class Policy>
+class PairBounder {
+public:
+    using S = typename Lights::spectrum;
+    using Node = ProductNode<S, Lights::timed>;
+
+    PairBounder(const Lights& lights, const Points& points, const Policy& policy)
+        : lights_(lights), points_(points), policy_(policy) {}
+
+    /// `priority(node)`: after the bound has changed. `threshold`: of such priorities; nodes below are not split.
+    template <class Priority>
+    void tighten(ReusableList<Node>& frontier, std::span<RefinementCandidate> candidates, const Priority& priority,
+                 double threshold) const {
+        points_.for_each([&](std::uint32_t gather_kind, const auto& gather_tree) {
+            if (gather_tree.empty()) return;
+            lights_.for_each([&](std::uint32_t light_kind, const auto& light_tree, const auto&) {
+                if (light_tree.empty()) return;
+                const auto is_of_kinds = [&](const Node& n) {
+                    return n.gather_kind == gather_kind && n.light_kind == light_kind;
+                };
+                bound_pairs(gather_tree, light_tree, frontier, candidates, is_of_kinds, priority);
+                choose_sides(gather_tree, light_tree, frontier, candidates, is_of_kinds, threshold);
+            });
+        });
+    }
+
+private:
+    template <class GatherTree, class LightTree, class IsOfKinds, class Priority>
+    void bound_pairs(const GatherTree& gather_tree, const LightTree& light_tree, ReusableList<Node>& frontier,
+                     std::span<RefinementCandidate> candidates, const IsOfKinds& is_of_kinds,
+                     const Priority& priority) const {
+        PairBlock block(gather_tree, light_tree);
+        std::array<RefinementCandidate*, static_cast<std::size_t>(lane_count)> members;
+        const auto flush = [&] {
+            const auto& units = block.bound(policy_);
+            for (std::size_t i = 0; i < block.size(); ++i) {
+                Node& n = frontier[members[i]->at];
+                lower_bound(n, units[i]);
+                n.bounded = true;
+                members[i]->priority = priority(n);
+            }
+            block.clear();
+        };
+        for (RefinementCandidate& candidate : candidates) {
+            const Node& n = frontier[candidate.at];
+            if (n.bounded || !is_of_kinds(n)) continue;
+            members[block.size()] = &candidate;
+            block.add(n.gather, n.light);
+            if (block.is_full()) flush();
+        }
+        flush();
+    }
+
+    /// The side whose collapse to its representative lowers the bound more: what is left then is the other side's. Each
+    /// split of one side in a row lets the other one appear a tenth better.
+    template <class GatherTree, class LightTree, class IsOfKinds>
+    void choose_sides(const GatherTree& gather_tree, const LightTree& light_tree, ReusableList<Node>& frontier,
+                      std::span<RefinementCandidate> candidates, const IsOfKinds& is_of_kinds, double threshold) const {
+        PairBlock block(gather_tree, light_tree);
+        std::array<Node*, static_cast<std::size_t>(lane_count)> members;
+        const auto flush = [&] {
+            const auto& units = block.bound(policy_);
+            for (std::size_t i = 0; i < block.size(); i += 2) {
+                Node& n = *members[i];
+                const double gather_left = residue(units[i], n.gather_splits);
+                const double light_left = residue(units[i + 1], n.light_splits);
+                if (gather_left != light_left) {
+                    n.side = gather_left < light_left ? PairSide::gather : PairSide::light;
+                } else {
+                    const double of_points = diagonal2(gather_tree.clusters()[n.gather].box);
+                    const double of_lights = diagonal2(light_tree.clusters()[n.light].box);
+                    n.side = of_points > of_lights ? PairSide::gather : PairSide::light;
+                }
+            }
+            block.clear();
+        };
+        for (const RefinementCandidate& candidate : candidates) {
+            Node& n = frontier[candidate.at];
+            if (n.side != PairSide::undecided || !is_of_kinds(n) || !(candidate.priority > threshold)) continue;
+            if (gather_tree.topology().is_leaf(n.gather)) {
+                n.side = PairSide::light;
+            } else if (light_tree.topology().is_leaf(n.light)) {
+                n.side = PairSide::gather;
+            } else {
+                members[block.size()] = &n;
+                block.add(n.gather_representative, n.light);
+                block.add(n.gather, n.light_representative);
+                if (block.is_full()) flush();
+            }
+        }
+        flush();
+    }
+
+    static double residue(const S& unit, int splits) {
+        return static_cast<double>(channel_max(unit)) * std::pow(1.1, splits);
+    }
+
+    static void lower_bound(Node& n, const S& unit) {
+        n.unit_bound = make_spectrum<S>([&](int c) {
+            const float a = channel(n.unit_bound, c), b = channel(unit, c);
+            return b < a ? b : a;
+        });
+        n.bound = multiply_bounds(n.unit_bound, n.weight);
+    }
+
+    const Lights& lights_;
+    const Points& points_;
+    const Policy& policy_;
+};
+
+}  // namespace lightcuts::detail

@@ -1,0 +1,171 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "../core/assertion.hpp"
+#include "../core/invalid_input.hpp"
+#include "../core/random.hpp"
+#include "../core/spectrum.hpp"
+#include "../tree/cluster_tree.hpp"
+
+namespace lightcuts {
+
+/// What each node of a binary tree amounts to at each of T instants, of leaves that exist at one instant each: the sum
+/// over the leaves below [Multidimensional Lightcuts 2006, section 3.2], and for each instant a leaf that represents
+/// the node, with probability leaf / node (over seeds). Only instants at which a node has something are stored: a node
+/// of few leaves has a sparse vector, one of very many a dense one.
+/// memory: 6 bytes and a spectrum for each instant of a node; N leaves at random instants have less than N (2 +
+/// log2(min(N, T))) of them.
+template <Spectrum S>
+class TimeVectors {
+public:
+    using node_index = ClusterTree::node_index;
+
+    static constexpr std::uint32_t max_instants = 1u << 16;
+
+    /// Builds the vectors anew, in the storage of those before. `instant_of(item)`: the instant of a leaf's item;
+    /// `value_of(item)`: what it amounts to, a spectrum. pre: the tree is binary.
+    /// throws: invalid_input naming the item whose instant is not below `instants`, or if there are more than 65,536
+    /// instants. cost: O(stored instants).
+    template <std::invocable<std::uint32_t> InstantOf, std::invocable<std::uint32_t> ValueOf>
+    void build(const ClusterTree& tree, std::uint32_t instants, std::uint64_t seed, const InstantOf& instant_of,
+               const ValueOf& value_of) {
+        LIGHTCUTS_ASSERT(tree.is_binary());
+        if (instants < 1 || instants > max_instants) {
+            LIGHTCUTS_THROW(invalid_input("instants: " + std::to_string(instants) + " is not in 1 to 65536"));
+        }
+        instants_ = instants;
+        begin_.clear();
+        instant_.clear();
+        value_.clear();
+        leaf_.clear();
+        begin_.push_back(0);
+        for (node_index n = 0; n < tree.size(); ++n) {
+            if (tree.is_leaf(n)) {
+                const std::uint32_t item = tree.item(n);
+                const std::uint32_t t = instant_of(item);
+                if (t >= instants) {
+                    LIGHTCUTS_THROW(invalid_input("item " + std::to_string(item) + ": instant " + std::to_string(t) +
+                                                  " is not below " + std::to_string(instants)));
+                }
+                append(t, value_of(item), n);
+            } else {
+                merge(tree.left(n), tree.right(n), hash_keys(seed, n));
+            }
+            if (value_.size() > (std::numeric_limits<std::uint32_t>::max)()) {
+                LIGHTCUTS_THROW(invalid_input("time vectors: more than 2^32 instants of nodes"));
+            }
+            begin_.push_back(static_cast<std::uint32_t>(value_.size()));
+        }
+    }
+
+    /// Gives back storage that is not used.
+    void shrink_to_fit() {
+        begin_.shrink_to_fit();
+        instant_.shrink_to_fit();
+        value_.shrink_to_fit();
+        leaf_.shrink_to_fit();
+    }
+
+    std::uint32_t instants() const { return instants_; }
+    /// True if nothing was built.
+    bool empty() const { return begin_.size() <= 1; }
+    /// The number of instants at which node n has something.
+    std::size_t count(node_index n) const { return begin_[n + 1] - begin_[n]; }
+    /// The instants at which node n has something, ascending.
+    std::span<const std::uint16_t> instants_of(node_index n) const {
+        return std::span(instant_).subspan(begin_[n], count(n));
+    }
+    /// What node n amounts to at an instant.
+    S at(node_index n, std::uint32_t instant) const {
+        const std::size_t i = find(n, instant);
+        return i == none ? black<S>() : value_[i];
+    }
+    /// The leaf that represents node n at an instant. pre: n has something then.
+    node_index representative(node_index n, std::uint32_t instant) const {
+        const std::size_t i = find(n, instant);
+        LIGHTCUTS_ASSERT(i != none);
+        return leaf_[i];
+    }
+
+    std::size_t memory_bytes() const {
+        return begin_.capacity() * sizeof(std::uint32_t) + instant_.capacity() * sizeof(std::uint16_t) +
+               value_.capacity() * sizeof(S) + leaf_.capacity() * sizeof(node_index);
+    }
+
+    /// Calls `f(instant, a, b)`, in ascending order, for each instant at which both nodes have something; a and b are
+    /// what they amount to. cost: the instants of the sparser one, each a search in the other.
+    template <class F>
+    static void for_each_common(const TimeVectors& a, node_index of_a, const TimeVectors& b, node_index of_b,
+                                const F& f) {
+        const bool a_is_sparser = a.count(of_a) <= b.count(of_b);
+        const TimeVectors& sparse = a_is_sparser ? a : b;
+        const TimeVectors& other = a_is_sparser ? b : a;
+        const node_index of_sparse = a_is_sparser ? of_a : of_b, of_other = a_is_sparser ? of_b : of_a;
+        for (std::size_t i = sparse.begin_[of_sparse]; i < sparse.begin_[of_sparse + 1]; ++i) {
+            const std::size_t j = other.find(of_other, sparse.instant_[i]);
+            if (j == none) continue;
+            const S& x = sparse.value_[i];
+            const S& y = other.value_[j];
+            f(std::uint32_t{sparse.instant_[i]}, a_is_sparser ? x : y, a_is_sparser ? y : x);
+        }
+    }
+
+private:
+    static constexpr std::size_t none = static_cast<std::size_t>(-1);
+
+    void append(std::uint32_t instant, const S& value, node_index leaf) {
+        instant_.push_back(static_cast<std::uint16_t>(instant));
+        value_.push_back(value);
+        leaf_.push_back(leaf);
+    }
+
+    /// Appends the sum of the vectors of two nodes.
+    void merge(node_index a, node_index b, std::uint64_t seed) {
+        std::size_t i = begin_[a], j = begin_[b];
+        const std::size_t end_i = begin_[a + 1], end_j = begin_[b + 1];
+        while (i < end_i || j < end_j) {
+            if (j == end_j || (i < end_i && instant_[i] < instant_[j])) {
+                append(instant_[i], S(value_[i]), leaf_[i]);
+                ++i;
+            } else if (i == end_i || instant_[j] < instant_[i]) {
+                append(instant_[j], S(value_[j]), leaf_[j]);
+                ++j;
+            } else {
+                const std::uint32_t instant = instant_[i];
+                const double of_a = channel_sum(value_[i]), of_b = channel_sum(value_[j]);
+                const double r = uniform01(hash_keys(seed, instant));
+                const bool takes_a = of_a + of_b > 0 ? r * (of_a + of_b) < of_a : r < 0.5;
+                append(instant, finite(S(value_[i] + value_[j])), leaf_[takes_a ? i : j]);
+                ++i;
+                ++j;
+            }
+        }
+    }
+
+    /// Where node n's value at an instant is; `none` if it has nothing then.
+    std::size_t find(node_index n, std::uint32_t instant) const {
+        const std::size_t first = begin_[n], last = begin_[n + 1];
+        if (last - first == instants_) return first + instant;  // dense
+        const auto from = instant_.begin() + static_cast<std::ptrdiff_t>(first);
+        const auto to = instant_.begin() + static_cast<std::ptrdiff_t>(last);
+        const auto at = std::lower_bound(from, to, instant);
+        return at != to && *at == instant ? static_cast<std::size_t>(at - instant_.begin()) : none;
+    }
+
+    std::uint32_t instants_ = 1;
+    std::vector<std::uint32_t> begin_;  ///< of each node's part of the arrays below; one more at the end
+    std::vector<std::uint16_t> instant_;
+    std::vector<S> value_;
+    std::vector<node_index> leaf_;
+};
+
+}  // namespace lightcuts

@@ -1,0 +1,109 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+
+#include "../core/invalid_input.hpp"
+#include "../core/random.hpp"
+#include "../cut/forest.hpp"
+#include "time_vectors.hpp"
+#include "timed_light.hpp"
+
+namespace lightcuts {
+
+namespace detail {
+template <std::size_t Kind>
+struct NoTimesTag {};
+}  // namespace detail
+
+/// Light trees at T instants: a forest, and for each kind of `TimedLight` what its clusters are at each instant. Other
+/// kinds cost nothing. Built once for a scene and shared by threads; refers to the trees.
+template <Light... Ls>
+class TimedForest {
+public:
+    using forest_type = LightForest<Ls...>;
+    using spectrum = typename forest_type::spectrum;
+    /// True if some kind exists at instants.
+    static constexpr bool timed = (TimedLight<Ls> || ...);
+
+    /// Kinds without instants only: one instant.
+    explicit TimedForest(const forest_type& forest) requires(!timed) : forest_(forest) {}
+
+    /// `seed`: of the choice of each cluster's representative at each instant.
+    /// throws: invalid_input if `instants` is not in 1 to 65536, or naming the light whose instant is not below it.
+    /// memory: see TimeVectors.
+    TimedForest(const forest_type& forest, std::uint32_t instants, std::uint64_t seed = 1)
+        : forest_(forest), instants_(instants) {
+        build(std::index_sequence_for<Ls...>{}, seed);
+    }
+    const forest_type& forest() const { return forest_; }
+    std::uint32_t instants() const { return instants_; }
+
+    /// Calls `f(tree, times)` for kind `kind`: `times` is a `TimeVectors` if the kind is a TimedLight, else empty.
+    template <class F>
+    decltype(auto) visit(std::uint32_t kind, F&& f) const {
+        return visit_from<0>(kind, f);
+    }
+    /// Calls `f(kind, tree, times)` for each kind in order.
+    template <class F>
+    void for_each(F&& f) const {
+        for_each_from<0>(f);
+    }
+
+    std::size_t memory_bytes() const {
+        std::size_t bytes = 0;
+        for_each([&](std::uint32_t, const auto&, const auto& times) {
+            if constexpr (requires { times.memory_bytes(); }) bytes += times.memory_bytes();
+        });
+        return bytes;
+    }
+
+private:
+    template <std::size_t K>
+    using Kind = std::tuple_element_t<K, std::tuple<Ls...>>;
+    template <std::size_t K>
+    using Times = std::conditional_t<TimedLight<Kind<K>>, TimeVectors<spectrum>, detail::Empty<detail::NoTimesTag<K>>>;
+
+    template <std::size_t... Ks>
+    static std::tuple<Times<Ks>...> times_type(std::index_sequence<Ks...>);
+
+    template <std::size_t... Ks>
+    void build(std::index_sequence<Ks...>, std::uint64_t seed) {
+        (build_kind<Ks>(hash_keys(seed, Ks)), ...);
+    }
+    template <std::size_t K>
+    void build_kind([[maybe_unused]] std::uint64_t seed) {
+        using L = Kind<K>;
+        if constexpr (TimedLight<L>) {
+            const LightTree<L>& tree = forest_.template tree<K>();
+            auto& times = std::get<K>(times_);
+            times.build(
+                tree.topology(), instants_, seed, [&](std::uint32_t i) { return instant_of(tree.lights()[i]); },
+                [&](std::uint32_t i) { return detail::intensity_of(tree.lights()[i]); });
+            times.shrink_to_fit();
+        }
+    }
+
+    template <std::size_t K, class F>
+    decltype(auto) visit_from([[maybe_unused]] std::uint32_t kind, F& f) const {
+        if constexpr (K + 1 == sizeof...(Ls)) {
+            return f(forest_.template tree<K>(), std::get<K>(times_));
+        } else {
+            return kind == K ? f(forest_.template tree<K>(), std::get<K>(times_)) : visit_from<K + 1>(kind, f);
+        }
+    }
+    template <std::size_t K, class F>
+    void for_each_from(F& f) const {
+        f(static_cast<std::uint32_t>(K), forest_.template tree<K>(), std::get<K>(times_));
+        if constexpr (K + 1 < sizeof...(Ls)) for_each_from<K + 1>(f);
+    }
+
+    forest_type forest_;
+    std::uint32_t instants_ = 1;
+    [[no_unique_address]] decltype(times_type(std::index_sequence_for<Ls...>{})) times_{};
+};
+
+}  // namespace lightcuts
