@@ -53,17 +53,31 @@ public:
         const int columns = tile.x1 - tile.x0;
         work.sums.assign(static_cast<std::size_t>(columns * (tile.y1 - tile.y0)), PixelSum{});
         work.points.clear();
-        for (int sample = 0; sample < options_.spp; ++sample) {
+        const auto sum_of = [&](int x, int y) -> PixelSum& {
+            return work.sums[static_cast<std::size_t>((y - tile.y0) * columns + x - tile.x0)];
+        };
+        if (shader_.shades_pixels()) {
             for (int y = tile.y0; y < tile.y1; ++y) {
                 for (int x = tile.x0; x < tile.x1; ++x) {
-                    if (interrupted()) return std::nullopt;
-                    PixelSum& sum = work.sums[static_cast<std::size_t>((y - tile.y0) * columns + x - tile.x0)];
-                    cast(x, y, sample, sum, work.points);
-                    if (work.points.size() >= largest_batch) shade(tile, work, statistics);
+                    for (int sample = 0; sample < options_.spp; ++sample) {
+                        if (interrupted()) return std::nullopt;
+                        cast(x, y, sample, sum_of(x, y), work.points);
+                    }
+                    shade_pixel(sum_of(x, y), work, statistics);
                 }
             }
+        } else {
+            for (int sample = 0; sample < options_.spp; ++sample) {
+                for (int y = tile.y0; y < tile.y1; ++y) {
+                    for (int x = tile.x0; x < tile.x1; ++x) {
+                        if (interrupted()) return std::nullopt;
+                        cast(x, y, sample, sum_of(x, y), work.points);
+                        if (work.points.size() >= largest_batch) shade(tile, work, statistics);
+                    }
+                }
+            }
+            shade(tile, work, statistics);
         }
-        shade(tile, work, statistics);
         // The last points may be those that were given up.
         if (interrupted()) return std::nullopt;
         store(tile, work.sums, statistics);
@@ -86,6 +100,19 @@ private:
         sum.normal += glm::dvec3(seen.normal);
     }
 
+    /// Shades all points of a pixel at once.
+    void shade_pixel(PixelSum& sum, Workspace& work, RenderStatistics& statistics) const {
+        const double rays = options_.spp;
+        const Shading shading = shader_.shade_pixel(work.points, static_cast<float>(1.0 / rays), *work.scratch);
+        sum.radiance += rays * glm::dvec3(shading.radiance);
+        sum.error_bound += rays * glm::dvec3(shading.error_bound);
+        sum.cut_size += rays * static_cast<double>(shading.cut_size);
+        sum.shadow_rays += rays * static_cast<double>(shading.shadow_rays);
+        count(shading, statistics);
+        statistics.points += work.points.size();
+        work.points.clear();
+    }
+
     /// Shades the waiting points and adds them to their pixels, in the order in which the eye rays found them.
     void shade(const Tile& tile, Workspace& work, RenderStatistics& statistics) const {
         work.shadings.assign(work.points.size(), Shading{});
@@ -105,22 +132,26 @@ private:
             }
             sum.cut_size += static_cast<double>(shading.cut_size);
             sum.shadow_rays += static_cast<double>(shading.shadow_rays);
-
-            statistics.shadow_rays += shading.shadow_rays;
-            statistics.cut_nodes += shading.cut_size;
-            statistics.largest_cut = std::max<std::uint64_t>(statistics.largest_cut, shading.cut_size);
-            statistics.at_limit += shading.at_limit ? 1 : 0;
-            for (int c = 0; c < 3; ++c) {
-                const double threshold = static_cast<double>(shading.clamp_threshold[c]);
-                if (!std::isfinite(threshold)) continue;
-                ++statistics.clamp_thresholds;
-                statistics.clamp_threshold_sum += threshold;
-                statistics.least_clamp_threshold = std::min(statistics.least_clamp_threshold, threshold);
-                statistics.largest_clamp_threshold = std::max(statistics.largest_clamp_threshold, threshold);
-            }
+            count(shading, statistics);
         }
         statistics.points += work.points.size();
         work.points.clear();
+    }
+
+    static void count(const Shading& shading, RenderStatistics& statistics) {
+        ++statistics.cuts;
+        statistics.shadow_rays += shading.shadow_rays;
+        statistics.cut_nodes += shading.cut_size;
+        statistics.largest_cut = std::max<std::uint64_t>(statistics.largest_cut, shading.cut_size);
+        statistics.at_limit += shading.at_limit ? 1 : 0;
+        for (int c = 0; c < 3; ++c) {
+            const double threshold = static_cast<double>(shading.clamp_threshold[c]);
+            if (!std::isfinite(threshold)) continue;
+            ++statistics.clamp_thresholds;
+            statistics.clamp_threshold_sum += threshold;
+            statistics.least_clamp_threshold = std::min(statistics.least_clamp_threshold, threshold);
+            statistics.largest_clamp_threshold = std::max(statistics.largest_clamp_threshold, threshold);
+        }
     }
 
     void set(const char* name, std::size_t pixel, double value) const {
@@ -172,6 +203,7 @@ void add_channels(Picture& picture, const Options& options) {
 void accumulate(RenderStatistics& total, const RenderStatistics& tile) {
     total.pixels += tile.pixels;
     total.points += tile.points;
+    total.cuts += tile.cuts;
     total.shadow_rays += tile.shadow_rays;
     total.cut_nodes += tile.cut_nodes;
     total.largest_cut = std::max(total.largest_cut, tile.largest_cut);

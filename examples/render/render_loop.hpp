@@ -16,10 +16,11 @@ namespace render {
 struct RenderStatistics {
     std::uint64_t pixels = 0;  ///< finished
     std::uint64_t points = 0;  ///< surface points shaded
+    std::uint64_t cuts = 0;    ///< one for each point, or for each pixel where all its points are shaded at once
     std::uint64_t shadow_rays = 0;
-    std::uint64_t cut_nodes = 0;  ///< sum of the points' cut sizes
+    std::uint64_t cut_nodes = 0;  ///< sum of the cuts' sizes
     std::uint64_t largest_cut = 0;
-    std::uint64_t at_limit = 0;  ///< points whose cut ended at the largest size allowed
+    std::uint64_t at_limit = 0;  ///< cuts that ended at the largest size allowed
     double error_bound_sum = 0;  ///< over pixels, of the largest channel
     double largest_error_bound = 0;
     std::uint64_t clamp_thresholds = 0;  ///< channels of points in which there was one

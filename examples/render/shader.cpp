@@ -15,6 +15,7 @@
 
 #include "interrupt.hpp"
 #include "lights/scene_lights.hpp"
+#include "multidimensional_shader.hpp"
 #include "rays/oracle.hpp"
 #include "surfaces/surface_material.hpp"
 
@@ -191,6 +192,7 @@ std::unique_ptr<Shader> make_shader(const Scene& scene, const RayScene& rays, co
     if (options.method == "stochastic-lightcuts") {
         return std::make_unique<EstimateShader<StochasticLightcuts>>(scene, rays, options);
     }
+    if (options.method == "multidimensional") return make_multidimensional_shader(scene, rays, options);
     auto lights = std::make_unique<const SceneLights>(scene, options);
     const SceneLights& trees = *lights;
     return trees.visit([&]<class F>(const F& forest) -> std::unique_ptr<Shader> {

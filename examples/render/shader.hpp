@@ -45,6 +45,18 @@ public:
     /// pre: points.size() == out.size(); `scratch` was made by this shader.
     virtual void shade(std::span<const SurfacePoint> points, std::span<Shading> out, Scratch& scratch) const = 0;
 
+    /// True if this method sums up all points of a pixel at once, by `shade_pixel`.
+    virtual bool shades_pixels() const { return false; }
+
+    /// The sum of what `points`, all of one pixel, send to the eye: each times its weight and `share`. pre:
+    /// shades_pixels(); `scratch` was made by this shader.
+    virtual Shading shade_pixel(std::span<const SurfacePoint> points, float share, Scratch& scratch) const {
+        static_cast<void>(points);
+        static_cast<void>(share);
+        static_cast<void>(scratch);
+        return {};
+    }
+
     /// Takes the radiance to which the viewer's eye is adapted; methods that do not use it do nothing.
     virtual void adapt(float radiance) { static_cast<void>(radiance); }
 };

@@ -140,7 +140,7 @@ Json to_json(const RunReport& report) {
     json["shadow_rays"] = s.shadow_rays;
     json["shadow_rays_per_pixel"] = per(static_cast<double>(s.shadow_rays), s.pixels);
     json["cut_size"] = {
-        {"mean", per(static_cast<double>(s.cut_nodes), s.points)}, {"max", s.largest_cut}, {"at_limit", s.at_limit}};
+        {"mean", per(static_cast<double>(s.cut_nodes), s.cuts)}, {"max", s.largest_cut}, {"at_limit", s.at_limit}};
     json["error_bound"] = {{"mean", finite_or_null(per(s.error_bound_sum, s.pixels))},
                            {"max", finite_or_null(s.largest_error_bound)}};
     json["clamp"] = clamp_json(report);
@@ -171,7 +171,7 @@ std::string summary(const RunReport& report) {
     text << report.options.method << ": " << report.seconds.load << " s loading, " << report.seconds.tree
          << " s trees, " << report.seconds.render << " s rendering, "
          << per(static_cast<double>(s.shadow_rays), s.pixels) << " shadow rays a pixel, cut size "
-         << per(static_cast<double>(s.cut_nodes), s.points) << "\n";
+         << per(static_cast<double>(s.cut_nodes), s.cuts) << "\n";
     if (report.resumed_tiles > 0) text << report.resumed_tiles << " tiles of these were there from an earlier run\n";
     if (report.error) {
         text << "relative RMSE " << 100.0 * report.error->relative_rmse << " %, 99.9th percentile "

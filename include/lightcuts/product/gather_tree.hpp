@@ -35,8 +35,9 @@ struct GatherTreeOptions {
     /// The diagonal of the scene in world units: an eighth of it is what a unit of direction counts for where positions
     /// and directions are compared [Multidimensional Lightcuts 2006, section 3.4]. 0: that of the gather points' box.
     double scene_diagonal = 0.0;
-    /// Most gather points that may represent a cluster, 1 to 32, where there is one instant.
-    unsigned representatives = 8;
+    /// Most gather points that may represent a cluster, 1 to 32, where there is one instant. Each pair of clusters draws
+    /// one. With 1 all pairs of a cluster share a point, and are wrong together where it alone is in shadow.
+    unsigned representatives = 32;
     /// Representatives are chosen by a hash of it.
     std::uint64_t seed = 1;
     /// Instants of the lights; 1: whatever instants gather points have do not matter to lights.

@@ -118,8 +118,9 @@ private:
         flush();
     }
 
-    /// The side whose collapse to its representative lowers the bound more: what is left then is the other side's. Each
-    /// split of one side in a row lets the other one appear a tenth better.
+    /// The side whose collapse to one of its leaves lowers the bound more: what is left then is the other side's. Each
+    /// split of one side in a row lets the other one appear a tenth better. Not to its representative: representatives
+    /// that contribute much would be kept and others split away, which biases the sum.
     template <class GatherTree, class LightTree, class IsOfKinds>
     void choose_sides(const GatherTree& gather_tree, const LightTree& light_tree, ReusableList<Node>& frontier,
                       std::span<RefinementCandidate> candidates, const IsOfKinds& is_of_kinds, double threshold) const {
@@ -150,13 +151,16 @@ private:
                 n.side = PairSide::gather;
             } else {
                 members[block.size()] = &n;
-                block.add(n.gather_representative, n.light);
-                block.add(n.gather, n.light_representative);
+                block.add(some_leaf(gather_tree.topology(), n.gather), n.light);
+                block.add(n.gather, some_leaf(light_tree.topology(), n.light));
                 if (block.is_full()) flush();
             }
         }
         flush();
     }
+
+    /// A leaf below `n` at about its middle, whatever the representatives.
+    static std::uint32_t some_leaf(const ClusterTree& tree, std::uint32_t n) { return tree.left_leaf(tree.right(n)); }
 
     static double residue(const S& unit, int splits) {
         return static_cast<double>(channel_max(unit)) * std::pow(1.1, splits);

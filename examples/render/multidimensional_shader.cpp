@@ -1,0 +1,112 @@
+#include "multidimensional_shader.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <utility>
+
+#include <lightcuts/product/gather.hpp>
+
+#include "interrupt.hpp"
+#include "lights/scene_lights.hpp"
+#include "rays/oracle.hpp"
+#include "surfaces/gather_lobes.hpp"
+
+namespace render {
+
+namespace {
+
+/// A virtual light adds at most this share of what the eye is adapted to [Multidimensional Lightcuts 2006, Eq. 14].
+constexpr float largest_share = 1.0f / 200.0f;
+
+template <class Forest>
+class MultidimensionalShader final : public Shader {
+public:
+    MultidimensionalShader(const Scene& scene, const RayScene& rays, std::unique_ptr<const SceneLights> lights,
+                           const Forest& forest, const Options& options)
+        : scene_(scene), rays_(rays), lights_(std::move(lights)), forest_(forest),
+          clamps_(options.clamp.is_automatic()) {
+        product_.cut.error_ratio = options.error_ratio;
+        if (options.is_given("--max-cut")) product_.cut.max_cut = options.max_cut;
+        product_.cut.seed = options.seed;
+        lightcuts::Box box;
+        for (const glm::vec3& p : scene.positions) box = lightcuts::merge(box, lightcuts::box_of(p));
+        tree_.scene_diagonal = std::sqrt(lightcuts::diagonal2(box));
+        tree_.seed = options.seed;
+        adapt(options.adaptation.value_or(0.0f));
+    }
+
+    std::unique_ptr<Scratch> make_scratch() const override { return std::make_unique<PairScratch>(); }
+
+    void adapt(float radiance) override {
+        product_.cut.adaptation = radiance;
+        float strongest = 0.0f;
+        for (const auto& light : scene_.virtual_lights) {
+            strongest = std::max({strongest, light.intensity.x, light.intensity.y, light.intensity.z});
+        }
+        if (clamps_ && radiance > 0.0f && strongest > 0.0f) {
+            product_.cut.clamp.transfer = largest_share * radiance / strongest;
+        }
+    }
+
+    bool shades_pixels() const override { return true; }
+
+    Shading shade_pixel(std::span<const SurfacePoint> points, float share, Scratch& scratch) const override {
+        if (points.empty()) return {};
+        auto& own = static_cast<PairScratch&>(scratch);
+        own.points.clear();
+        for (const SurfacePoint& p : points) own.points.add(p, share);
+        lightcuts::GatherTreeOptions tree = tree_;
+        tree.seed = lightcuts::hash_keys(tree_.seed, points.front().pixel);
+        own.trees.build(own.points.diffuse, own.points.glossy, tree);
+        lightcuts::ProductOptions product = product_;
+        product.id = points.front().pixel;
+        Shading shading;
+        with_oracle(scene_, rays_, [&](const auto& oracle) {
+            const auto result = lightcuts::gather(forest_, own.trees, oracle, own.pairs, product);
+            shading = {result.radiance,
+                       result.error_bound,
+                       glm::vec3(std::numeric_limits<float>::infinity()),
+                       result.cut_size,
+                       result.queries,
+                       result.stop == lightcuts::StopReason::limit};
+        });
+        return shading;
+    }
+
+    void shade(std::span<const SurfacePoint> points, std::span<Shading> out, Scratch& scratch) const override {
+        for (std::size_t i = 0; i < points.size() && !interrupted(); ++i) {
+            SurfacePoint alone = points[i];
+            alone.weight = glm::vec3(1.0f);
+            out[i] = shade_pixel(std::span(&alone, 1), 1.0f, scratch);
+        }
+    }
+
+private:
+    struct PairScratch final : Scratch {
+        GatherPoints points;
+        lightcuts::GatherForest<DiffuseGatherPoint, GlossyGatherPoint> trees;
+        lightcuts::gather_scratch_of<Forest> pairs;
+    };
+
+    const Scene& scene_;
+    const RayScene& rays_;
+    std::unique_ptr<const SceneLights> lights_;
+    const Forest& forest_;  ///< of `lights_`
+    bool clamps_;
+    lightcuts::ProductOptions product_;
+    lightcuts::GatherTreeOptions tree_;
+};
+
+}  // namespace
+
+std::unique_ptr<Shader> make_multidimensional_shader(const Scene& scene, const RayScene& rays, const Options& options) {
+    auto lights = std::make_unique<const SceneLights>(scene, options);
+    const SceneLights& trees = *lights;
+    return trees.visit([&]<class F>(const F& forest) -> std::unique_ptr<Shader> {
+        return std::make_unique<MultidimensionalShader<F>>(scene, rays, std::move(lights), forest, options);
+    });
+}
+
+}  // namespace render

@@ -1,0 +1,89 @@
+#include "surfaces/gather_lobes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <lightcuts/core/random.hpp>
+#include <lightcuts/material/above_horizon.hpp>
+
+namespace render {
+
+namespace {
+
+constexpr glm::vec3 black(0.0f);
+
+bool has_gloss(const SurfacePoint& p) {
+    return p.model != SurfacePoint::Model::lambert &&
+           (p.specular != black || p.model == SurfacePoint::Model::microfacet);
+}
+
+std::variant<lightcuts::ModifiedPhong<>, lightcuts::Ggx<>> lobe_of(const SurfacePoint& p) {
+    if (p.model == SurfacePoint::Model::phong) {
+        return lightcuts::ModifiedPhong<>(p.shading_normal, p.to_viewer, p.specular, p.shininess);
+    }
+    return lightcuts::Ggx<>(p.shading_normal, p.to_viewer, p.specular, p.shininess, p.grazing);
+}
+
+/// 1 for a wide lobe to 4 for a mirror.
+float sharpness(const SurfacePoint& p) {
+    // Of a microfacet lobe the exponent of about the same width.
+    const float exponent = p.model == SurfacePoint::Model::phong ? p.shininess
+                                                                 : 2.0f / (p.shininess * p.shininess) - 2.0f;
+    return std::clamp(1.0f + 0.4f * std::log2(1.0f + std::max(exponent, 0.0f)), 1.0f, 4.0f);
+}
+
+}  // namespace
+
+glm::vec3 DiffuseLobe::evaluate(const glm::vec3& to_light) const {
+    return lightcuts::AboveHorizon{lightcuts::Lambert{normal, glm::vec3(1.0f)}, geometric_normal}.evaluate(to_light);
+}
+
+lightcuts::CosineLobe<glm::vec3> DiffuseLobe::cosine_lobe() const {
+    return lightcuts::Lambert{normal, glm::vec3(1.0f)}.cosine_lobe();
+}
+
+GlossyLobe::GlossyLobe(const SurfacePoint& p)
+    : geometric_normal_(p.geometric_normal),
+      main_direction_(sharpness(p) *
+                      (2.0f * glm::dot(p.shading_normal, p.to_viewer) * p.shading_normal - p.to_viewer)),
+      lobe_(lobe_of(p)) {}
+
+glm::vec3 GlossyLobe::evaluate(const glm::vec3& to_light) const {
+    return std::visit(
+        [&]<class M>(const M& lobe) {
+            return lightcuts::AboveHorizon<const M&>{lobe, geometric_normal_}.evaluate(to_light);
+        },
+        lobe_);
+}
+
+glm::vec3 GlossyLobe::upper_bound(const lightcuts::OffsetBox& offsets) const {
+    return std::visit(
+        [&]<class M>(const M& lobe) {
+            return lightcuts::AboveHorizon<const M&>{lobe, geometric_normal_}.upper_bound(offsets);
+        },
+        lobe_);
+}
+
+void GatherPoints::clear() {
+    diffuse.clear();
+    glossy.clear();
+}
+
+void GatherPoints::add(const SurfacePoint& p, float share) {
+    const std::uint64_t hash = lightcuts::hash_keys(p.pixel, p.sample, p.vertex);
+    const auto name = static_cast<std::uint32_t>(hash);
+    const glm::vec3 weight = p.weight * share;
+    if (p.diffuse != black) {
+        diffuse.push_back({{p.position, {p.shading_normal, p.geometric_normal}, p.ray_origin, name},
+                           weight * p.diffuse});
+    }
+    if (p.transmitted != black) {
+        const glm::vec3 behind = p.position + (p.position - p.ray_origin);
+        diffuse.push_back({{p.position, {-p.shading_normal, -p.geometric_normal}, behind, name},
+                           weight * p.transmitted});
+    }
+    if (has_gloss(p)) glossy.push_back({{p.position, GlossyLobe(p), p.ray_origin, name}, weight});
+}
+
+}  // namespace render
