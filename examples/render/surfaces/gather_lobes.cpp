@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <lightcuts/core/random.hpp>
 #include <lightcuts/material/above_horizon.hpp>
@@ -63,6 +64,15 @@ glm::vec3 GlossyLobe::upper_bound(const lightcuts::OffsetBox& offsets) const {
             return lightcuts::AboveHorizon<const M&>{lobe, geometric_normal_}.upper_bound(offsets);
         },
         lobe_);
+}
+
+GlossyEnvelope GlossyLobe::envelope() const {
+    if (const auto* phong = std::get_if<lightcuts::ModifiedPhong<>>(&lobe_)) return {phong->envelope(), {}};
+    return {{}, std::get<lightcuts::Ggx<>>(lobe_).envelope()};
+}
+
+glm::vec3 GlossyEnvelope::upper_bound(const lightcuts::OffsetBox& offsets) const {
+    return glm::max(phong.upper_bound(offsets), microfacet.upper_bound(offsets));
 }
 
 void GatherPoints::clear() {

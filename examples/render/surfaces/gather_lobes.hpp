@@ -22,6 +22,18 @@ struct DiffuseLobe {
     lightcuts::CosineLobe<glm::vec3> cosine_lobe() const;
 };
 
+/// Dominates several glossy lobes.
+struct GlossyEnvelope {
+    lightcuts::PhongEnvelope<glm::vec3> phong;
+    lightcuts::GgxEnvelope<glm::vec3, lightcuts::HeightCorrelated> microfacet;
+
+    glm::vec3 upper_bound(const lightcuts::OffsetBox& offsets) const;
+    /// Dominates what either dominates.
+    friend GlossyEnvelope merge(const GlossyEnvelope& a, const GlossyEnvelope& b) {
+        return {merge(a.phong, b.phong), merge(a.microfacet, b.microfacet)};
+    }
+};
+
 /// The glossy lobe of a surface, above both of its normals.
 class GlossyLobe {
 public:
@@ -30,6 +42,7 @@ public:
 
     glm::vec3 evaluate(const glm::vec3& to_light) const;
     glm::vec3 upper_bound(const lightcuts::OffsetBox& offsets) const;
+    GlossyEnvelope envelope() const;
     /// The mirrored view, longer where the lobe is sharper: 1 to 4.
     glm::vec3 main_direction() const { return main_direction_; }
 

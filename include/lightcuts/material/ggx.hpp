@@ -9,6 +9,7 @@
 #include "../core/vectorized.hpp"
 #include "conservative_rounding.hpp"
 #include "direction_caps.hpp"
+#include "glossy_envelope.hpp"
 #include "half_vector.hpp"
 #include "material.hpp"
 
@@ -131,6 +132,14 @@ public:
                 [&](int c) { return (channel(f0_, c) * facing[i] + grazing[i]) * factor[i]; });
         }
         detail::blacken_below(normal, offsets, bounds);
+    }
+
+    /// Bounds this lobe and, merged, others like it.
+    GgxEnvelope<S, Shadowing> envelope() const {
+        if (!(frame_.cos_view() > 0.0)) return {};
+        const glm::dvec3 n = frame_.normal(), v = frame_.view();
+        return {detail::cone_about(n), detail::cone_about(2.0 * frame_.cos_view() * n - v), detail::cone_about(v),
+                alpha2_, alpha2_, frame_.cos_view(), f0_, f90_, true};
     }
 
 private:

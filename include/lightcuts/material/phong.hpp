@@ -10,6 +10,7 @@
 #include "../core/vector.hpp"
 #include "../core/vectorized.hpp"
 #include "conservative_rounding.hpp"
+#include "glossy_envelope.hpp"
 #include "material.hpp"
 
 namespace lightcuts {
@@ -58,6 +59,12 @@ public:
                                                           : bound(static_cast<double>(along[i]),
                                                                   static_cast<double>(cosines[i]));
         }
+    }
+
+    /// Bounds this lobe and, merged, others like it.
+    PhongEnvelope<S> envelope() const {
+        return {detail::cone_about(normal_), detail::cone_about(mirror_), exponent_, exponent_,
+                scale_ * static_cast<float>(6.2831853071795865 / (exponent_ + 2.0))};
     }
 
 private:

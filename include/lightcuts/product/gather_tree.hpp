@@ -79,14 +79,20 @@ public:
         [[no_unique_address]] envelope_type envelope{};  ///< dominates the points' lobes
     };
 
-    /// Bounds the lobes of the points below a node one by one: their largest.
+    /// Bounds the lobes of the points below a node: those of few one by one, which is tighter, those of many by the
+    /// envelope, if there is one.
     class LobesBelow {
     public:
         LobesBelow() = default;
         LobesBelow(const GatherTree& tree, node_index node) : tree_(&tree), node_(node) {}
 
-        /// cost: a bound for each point.
+        /// cost: that of the envelope's bound, or of a bound for each point.
         spectrum upper_bound(const OffsetBox& box) const {
+            if constexpr (EnvelopedMaterial<material_type>) {
+                if (tree_->topology_.leaf_count(node_) > few_points) {
+                    return detail::upper_bound_over<spectrum>(tree_->clusters_[node_].envelope, box);
+                }
+            }
             spectrum largest = black<spectrum>();
             for (node_index n = tree_->topology_.left_leaf(node_); n <= node_; ++n) {
                 if (!tree_->topology_.is_leaf(n)) continue;
@@ -100,12 +106,15 @@ public:
         }
 
     private:
+        static constexpr std::size_t few_points = 2;
+
         const GatherTree* tree_ = nullptr;
         node_index node_ = 0;
     };
 
-    /// Bounds what the points of a cluster reflect.
-    using bound_type = std::conditional_t<detail::has_envelope<material_type>, envelope_type, LobesBelow>;
+    /// What bounds the points of a cluster: the envelope of cosine lobes, from which the bound policy forms joint bounds.
+    static constexpr bool by_envelope = BoundsByCosineLobe<envelope_type, spectrum>;
+    using bound_type = std::conditional_t<by_envelope, envelope_type, LobesBelow>;
 
     GatherTree() = default;
     GatherTree(const GatherTree&) = delete;
@@ -151,7 +160,7 @@ public:
 
     /// Bounds the lobes of a cluster: a reference to its envelope, or what asks each of its points.
     decltype(auto) bound(node_index n) const {
-        if constexpr (detail::has_envelope<material_type>) {
+        if constexpr (by_envelope) {
             return static_cast<const envelope_type&>(clusters_[n].envelope);
         } else {
             return LobesBelow(*this, n);

@@ -163,7 +163,9 @@ private:
     static std::uint32_t some_leaf(const ClusterTree& tree, std::uint32_t n) { return tree.left_leaf(tree.right(n)); }
 
     static double residue(const S& unit, int splits) {
-        return static_cast<double>(channel_max(unit)) * std::pow(1.1, splits);
+        double rise = 1.0;
+        for (int i = 0; i < splits; ++i) rise *= 1.1;
+        return static_cast<double>(channel_max(unit)) * rise;
     }
 
     static void lower_bound(Node& n, const S& unit) {

@@ -48,8 +48,8 @@ public:
     static_assert(!Lights::timed || Points::timed, "lights with instants need gather points with instants");
 
     static constexpr bool timed = Lights::timed;
-    using node = ProductNode<S, timed>;
-    using Total = detail::RunningTotal<S, false, node>;
+    using Node = ProductNode<S, timed>;
+    using Total = detail::RunningTotal<S, false, Node>;
 
     ProductProblem(const Lights& lights, const Points& points, const Oracle& oracle, const Policy& policy,
                    const ProductOptions& options, Total& total, std::uint32_t& queries,
@@ -58,7 +58,7 @@ public:
           query_list_(query_list), threshold_(static_cast<double>(options.cut.error_ratio)),
           bounder_(lights, points, policy) {}
 
-    void roots(ReusableList<node>& out) {
+    void roots(ReusableList<Node>& out) {
         total_.start(options_.cut.clamp, lights_.forest());
         queries_ = 0;
         const std::size_t pairs = points_.point_count() * lights_.forest().light_count();
@@ -91,7 +91,7 @@ public:
         });
     }
 
-    void split(const node& parent, ReusableList<node>& out) {
+    void split(const Node& parent, ReusableList<Node>& out) {
         total_.subtract(parent);
         visit(parent, [&](auto kinds, const auto& points, const auto& lights, const auto& times) {
             const bool of_points = parent.side == PairSide::gather;
@@ -107,7 +107,7 @@ public:
                 append(kinds, points, lights, times, of_points ? child : parent.gather,
                        of_points ? parent.light : child, parent.unit_bound, out, inherits ? &parent : nullptr);
                 if (out.size() == before) return;
-                node& n = out[before];
+                Node& n = out[before];
                 n.gather_splits = of_points ? next(parent.gather_splits) : std::uint8_t{0};
                 n.light_splits = of_points ? std::uint8_t{0} : next(parent.light_splits);
             };
@@ -116,23 +116,23 @@ public:
         });
     }
 
-    void tighten(ReusableList<node>& frontier, std::span<RefinementCandidate> candidates) const {
+    void tighten(ReusableList<Node>& frontier, std::span<RefinementCandidate> candidates) const {
         const double threshold = threshold_ / total_.priority_scale();
         bounder_.tighten(
-            frontier, candidates, [this](const node& n) { return priority(n); }, threshold);
+            frontier, candidates, [this](const Node& n) { return priority(n); }, threshold);
     }
 
     /// Finds the transfer of new representatives; a batched oracle's queries go to the caller's list.
-    void request(std::span<node> fresh) {
-        for (node& n : fresh) {
+    void request(std::span<Node> fresh) {
+        for (Node& n : fresh) {
             if (n.queried) request(n);
         }
     }
 
     /// Traces the shadow rays of new nodes one by one.
-    void evaluate(std::span<node> fresh) {
+    void evaluate(std::span<Node> fresh) {
         request(fresh);
-        for (node& n : fresh) {
+        for (Node& n : fresh) {
             if (n.queried) trace(n);
             total_.add(n);
         }
@@ -140,8 +140,8 @@ public:
 
     /// Takes the answers to the queries that `fresh` gave rise to, in their order; returns those left over.
     template <class A>
-    std::span<const A> receive(std::span<node> fresh, std::span<const A> answers) {
-        for (node& n : fresh) {
+    std::span<const A> receive(std::span<Node> fresh, std::span<const A> answers) {
+        for (Node& n : fresh) {
             if (n.queried) {
                 receive(n, answers.front());
                 answers = answers.subspan(1);
@@ -153,7 +153,7 @@ public:
 
     /// Draws other representatives for a node of the cut, which then wait to be looked at: not those that clusters
     /// keep, on which the shape of the cut depends. Those of a single pair stay. cost: O(depth).
-    void redraw(node& n) const {
+    void redraw(Node& n) const {
         visit(n, [&](auto, const auto& points, const auto& lights, const auto& times) {
             if (points.topology().is_leaf(n.gather) && lights.topology().is_leaf(n.light)) return;
             n.queried = true;
@@ -163,7 +163,7 @@ public:
         });
     }
 
-    bool is_final(const node& n) const { return is_black(n.bound); }
+    bool is_final(const Node& n) const { return is_black(n.bound); }
 
     template <class Visit>
     void observe(const Visit& visit_all) {
@@ -173,11 +173,11 @@ public:
     void checkpoint() { total_.checkpoint(); }
     double priority_scale() const { return total_.priority_scale(); }
     double priority_spread() const { return total_.priority_spread(); }
-    double priority(const node& n) const { return total_.priority(n, threshold_); }
+    double priority(const Node& n) const { return total_.priority(n, threshold_); }
     double threshold() const { return threshold_; }
 
     /// Pairs whose boxes touch, whose bounds are infinite, go by weight over squared diagonals.
-    bool precedes(const node& a, const node& b) const {
+    bool precedes(const Node& a, const Node& b) const {
         const double density_a = density(a), density_b = density(b);
         if (density_a != density_b) return density_a > density_b;
         if (a.gather_kind != b.gather_kind) return a.gather_kind < b.gather_kind;
@@ -195,7 +195,7 @@ private:
     static std::uint8_t next(std::uint8_t splits) { return splits < 64 ? static_cast<std::uint8_t>(splits + 1) : splits; }
 
     template <class F>
-    decltype(auto) visit(const node& n, const F& f) const {
+    decltype(auto) visit(const Node& n, const F& f) const {
         return points_.visit(n.gather_kind, [&](const auto& points) -> decltype(auto) {
             return lights_.visit(n.light_kind, [&](const auto& lights, const auto& times) -> decltype(auto) {
                 return f(Kinds{n.gather_kind, n.light_kind}, points, lights, times);
@@ -248,10 +248,10 @@ private:
     template <class GatherTree, class LightTree, class Times>
     void append(Kinds kinds, const GatherTree& points, const LightTree& lights, const Times& times,
                 ClusterTree::node_index gather, ClusterTree::node_index light, const S& unit_bound,
-                ReusableList<node>& out, const node* heir_of = nullptr) const {
+                ReusableList<Node>& out, const Node* heir_of = nullptr) const {
         const S weight = weight_of(points, lights, times, gather, light);
         if (is_black(weight)) return;
-        node& n = out.append();
+        Node& n = out.append();
         n.gather = gather;
         n.light = light;
         n.gather_kind = kinds.gather;
@@ -282,7 +282,7 @@ private:
     /// Draws a node's representatives: the instant by what the pair weighs then, a gather point and a light by what
     /// each has of its side then [Multidimensional Lightcuts 2006, Eq. 8-12].
     template <class GatherTree, class LightTree, class Times>
-    void draw(const GatherTree& points, const LightTree& lights, [[maybe_unused]] const Times& times, node& n) const {
+    void draw(const GatherTree& points, const LightTree& lights, [[maybe_unused]] const Times& times, Node& n) const {
         const std::uint64_t seed = seed_of(n, 0);
         if constexpr (at_instants<LightTree>) {
             if (points.is_timed()) {
@@ -308,7 +308,7 @@ private:
     /// As `draw`, but among all gather points and lights below the node.
     template <class GatherTree, class LightTree, class Times>
     void draw_afresh(const GatherTree& points, const LightTree& lights, [[maybe_unused]] const Times& times,
-                     node& n) const {
+                     Node& n) const {
         const std::uint64_t seed = seed_of(n, 1);
         const ClusterTree &gather_tree = points.topology(), &light_tree = lights.topology();
         if constexpr (at_instants<LightTree>) {
@@ -345,7 +345,7 @@ private:
     }
 
     /// Of choices of one `purpose` at a node.
-    std::uint64_t seed_of(const node& n, std::uint32_t purpose) const {
+    std::uint64_t seed_of(const Node& n, std::uint32_t purpose) const {
         return hash_keys(options_.cut.seed, options_.id, purpose, n.gather_kind, n.light_kind, n.gather, n.light);
     }
 
@@ -393,7 +393,7 @@ private:
     }
 
     /// The transfer of a node's representatives, shadows apart.
-    void request(node& n) {
+    void request(Node& n) {
         visit(n, [&](auto, const auto& points, const auto& lights, const auto&) {
             using L = typename std::remove_cvref_t<decltype(lights)>::light_type;
             const auto& receiver = points.point(n.gather_representative).receiver;
@@ -421,7 +421,7 @@ private:
         });
     }
 
-    void trace(node& n) const {
+    void trace(Node& n) const {
         visit(n, [&](auto, const auto& points, const auto& lights, const auto&) {
             const auto& light = lights.lights()[lights.topology().item(n.light_representative)];
             detail::with_shadow_origin(points.point(n.gather_representative).receiver, light, [&](const auto& lit) {
@@ -431,12 +431,12 @@ private:
     }
 
     template <class A>
-    static void receive(node& n, const A& visibility) {
+    static void receive(Node& n, const A& visibility) {
         n.transfer = n.transfer * visibility;
         n.estimate = finite_product(n.transfer, n.weight);
     }
 
-    double density(const node& n) const {
+    double density(const Node& n) const {
         return visit(n, [&](auto, const auto& points, const auto& lights, const auto&) {
             const double size2 = diagonal2(points.clusters()[n.gather].box) + diagonal2(lights.clusters()[n.light].box);
             return size2 > 0.0 ? channel_sum(n.weight) / size2 : std::numeric_limits<double>::infinity();
