@@ -65,12 +65,8 @@ public:
         Shading shading;
         with_oracle(scene_, rays_, [&](const auto& oracle) {
             const auto result = lightcuts::gather(forest_, own.trees, oracle, own.pairs, product);
-            shading = {result.radiance,
-                       result.error_bound,
-                       glm::vec3(std::numeric_limits<float>::infinity()),
-                       result.cut_size,
-                       result.queries,
-                       result.stop == lightcuts::StopReason::limit};
+            shading = {result.radiance, result.error_bound, glm::vec3(std::numeric_limits<float>::infinity()),
+                       result.cut_size, result.queries,     result.stop == lightcuts::StopReason::limit};
         });
         return shading;
     }

@@ -52,7 +52,8 @@ void expect_dominates(const MakeLobe& make_lobe) {
         std::vector<V> offsets;
         const glm::dvec3 middle = some_direction(random, normal, glm::normalize(mirror));
         const double size = random.chance(0.3) ? 0.0 : random.decades(-7.0, 0.5);
-        for (int i = 0; i < 6; ++i) offsets.push_back(V(distance * (middle + size * random.in_box({-1, -1, -1}, {1, 1, 1}))));
+        for (int i = 0; i < 6; ++i)
+            offsets.push_back(V(distance * (middle + size * random.in_box({-1, -1, -1}, {1, 1, 1}))));
         Box box;
         for (const V& o : offsets) box = merge(box, box_of(o));
         const V bound = detail::upper_bound_over<V>(envelope, {glm::dvec3(box.lo), glm::dvec3(box.hi)});

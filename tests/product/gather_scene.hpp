@@ -40,16 +40,18 @@ inline std::vector<GlossyPoint> glossy_points(Random& random, std::size_t n, dou
         const V normal = d.receiver.material.normal;
         const V view(random.near(glm::dvec3(normal), 1.2));
         const auto exponent = static_cast<float>(random.decades(0.0, 3.0));
-        points.push_back({{d.receiver.position, ModifiedPhong<V>(glm::normalize(normal), glm::normalize(view), V(1.0f), exponent),
-                           d.receiver.shadow_origin, d.receiver.id},
-                          d.strength});
+        points.push_back(
+            {{d.receiver.position, ModifiedPhong<V>(glm::normalize(normal), glm::normalize(view), V(1.0f), exponent),
+              d.receiver.shadow_origin, d.receiver.id},
+             d.strength});
     }
     return points;
 }
 
 /// The same points, each at some instant.
 template <class M>
-std::vector<InstantGatherPoint<M, V>> at_instants(const std::vector<GatherPoint<M, V>>& points, std::uint32_t instants) {
+std::vector<InstantGatherPoint<M, V>> at_instants(const std::vector<GatherPoint<M, V>>& points,
+                                                  std::uint32_t instants) {
     std::vector<InstantGatherPoint<M, V>> timed;
     for (std::uint32_t i = 0; i < points.size(); ++i) timed.push_back({points[i], i % instants});
     return timed;

@@ -14,7 +14,8 @@ namespace {
 constexpr ProductOptions exact{.cut = {.error_ratio = 0.0f, .max_cut = 0, .exhaustive_below = 0}};
 
 void expect_near(const V& found, const glm::dvec3& truth, double tolerance) {
-    for (int c = 0; c < 3; ++c) EXPECT_NEAR(static_cast<double>(found[c]), truth[c], tolerance * (truth[c] + 1e-30)) << c;
+    for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(static_cast<double>(found[c]), truth[c], tolerance * (truth[c] + 1e-30)) << c;
 }
 
 /// |found - truth| is at most the stated bound, and rounding.
@@ -90,20 +91,75 @@ TEST(Gather, LightReachesOnlyItsInstant) {
     }
 }
 
-TEST(Gather, FixedCutIsUnbiasedOverSeedsWhenRedrawn) {
-    Random random(5);
-    Room<float> room(5);
-    std::vector<InstantLight<OmniLight<float>>> lights;
-    for (const auto& l : room.omni(60)) lights.push_back({l, static_cast<std::uint32_t>(lights.size() % 4)});
-    const auto occluders = room.occluders();
-    const ScalarOccluders oracle{occluders};
-    std::vector<InstantGatherPoint<Lambert<float>, float>> points;
-    for (const DiffusePoint& p : diffuse_points(random, 30, 0.3, 1.0)) {
-        points.push_back({{{p.receiver.position, Lambert<float>{p.receiver.material.normal, 1.0f},
-                            p.receiver.shadow_origin, p.receiver.id},
-                           p.strength.x},
-                          static_cast<std::uint32_t>(points.size() % 4)});
+/// In scalars: intensities of several channels that are not proportional bias a cluster's estimate.
+struct ScalarScene {
+    std::vector<OmniLight<float>> lights;
+    std::vector<GatherPoint<Lambert<float>, float>> points;
+    Occluders occluders;
+
+    ScalarScene() {
+        Random random(5);
+        Room<float> room(5);
+        lights = room.omni(60);
+        occluders = room.occluders();
+        for (const DiffusePoint& p : diffuse_points(random, 30, 0.3, 1.0)) {
+            const Receiver<Lambert<V>>& r = p.receiver;
+            points.push_back(
+                {{r.position, Lambert<float>{r.material.normal, 1.0f}, r.shadow_origin, r.id}, p.strength.x});
+        }
     }
+};
+
+/// The mean over seeds is within four standard deviations of `truth`, and these are small. `estimate(seed)`.
+template <class Estimate>
+void expect_mean(double truth, const Estimate& estimate) {
+    double sum = 0, squares = 0;
+    constexpr int seeds = 3000;
+    for (int seed = 0; seed < seeds; ++seed) {
+        const auto x = static_cast<double>(estimate(static_cast<std::uint64_t>(seed)));
+        sum += x;
+        squares += x * x;
+    }
+    const double mean = sum / seeds, deviation = std::sqrt((squares / seeds - mean * mean) / seeds);
+    EXPECT_NEAR(mean, truth, 4 * deviation);
+    EXPECT_LT(deviation, 0.02 * truth);
+}
+
+/// A cut of so many clusters whatever the estimate: its shape follows from bounds alone.
+ProductOptions fixed_cut(std::uint64_t seed, bool redraw) {
+    return {.cut = {.error_ratio = 1e-6f, .max_cut = 40, .exhaustive_below = 0, .seed = hash_keys(7, seed)},
+            .redraw = redraw};
+}
+
+TEST(Gather, EstimateOfAFixedCutIsUnbiasedOverSeeds) {
+    const ScalarScene scene;
+    const ScalarOccluders oracle{scene.occluders};
+    double truth = 0;
+    for (const auto& p : scene.points) {
+        for (const auto& l : scene.lights) {
+            truth += static_cast<double>(unshadowed_transfer(p.receiver, l) * oracle(p.receiver, l) * p.strength *
+                                         l.intensity);
+        }
+    }
+    for (const bool redraw : {false, true}) {
+        for (const unsigned several : {1u, 32u}) {
+            expect_mean(truth, [&](std::uint64_t seed) {
+                const LightTree tree(scene.lights, {.representatives = several, .seed = hash_keys(9, seed)});
+                return gather(tree, scene.points, oracle, fixed_cut(seed, redraw),
+                              {.representatives = several, .seed = hash_keys(8, seed)})
+                    .radiance;
+            });
+        }
+    }
+}
+
+TEST(Gather, EstimateOfAFixedCutOverInstantsIsUnbiasedOverSeeds) {
+    const ScalarScene scene;
+    const ScalarOccluders oracle{scene.occluders};
+    std::vector<InstantLight<OmniLight<float>>> lights;
+    for (const auto& l : scene.lights) lights.push_back({l, static_cast<std::uint32_t>(lights.size() % 4)});
+    std::vector<InstantGatherPoint<Lambert<float>, float>> points;
+    for (const auto& p : scene.points) points.push_back({p, static_cast<std::uint32_t>(points.size() % 4)});
     double truth = 0;
     for (const auto& p : points) {
         for (const auto& l : lights) {
@@ -114,21 +170,111 @@ TEST(Gather, FixedCutIsUnbiasedOverSeedsWhenRedrawn) {
     }
     const LightTree tree(lights);
     const LightForest forest(tree);
-    // A fixed cut: as many nodes as fit whatever the estimate, so that the bounds alone decide.
-    double sum = 0, squares = 0;
-    constexpr int seeds = 3000;
-    for (int seed = 0; seed < seeds; ++seed) {
-        const TimedForest timed(forest, 4, hash_keys(9, seed));
-        ProductOptions options{.cut = {.error_ratio = 1e-6f, .max_cut = 40, .exhaustive_below = 0, .seed = hash_keys(7, seed)},
-                               .redraw = true};
-        const auto result = gather(timed, points, oracle, options, {.seed = hash_keys(8, seed)});
-        const auto x = static_cast<double>(result.radiance);
-        sum += x;
-        squares += x * x;
+    for (const bool redraw : {false, true}) {
+        expect_mean(truth, [&](std::uint64_t seed) {
+            const TimedForest timed(forest, 4, hash_keys(9, seed));
+            return gather(timed, points, oracle, fixed_cut(seed, redraw), {.seed = hash_keys(8, seed)}).radiance;
+        });
     }
-    const double mean = sum / seeds, deviation = std::sqrt((squares / seeds - mean * mean) / seeds);
-    EXPECT_NEAR(mean, truth, 4 * deviation);
-    EXPECT_LT(deviation, 0.02 * truth);
+}
+
+TEST(Gather, OfOnePointIsItsLightcut) {
+    Random random(3);
+    Room<V> room(3);
+    const auto lights = room.oriented(500);
+    const LightTree tree(lights);
+    const auto occluders = room.occluders();
+    const ScalarOccluders oracle{occluders};
+    for (const DiffusePoint& p : diffuse_points(random, 30, 1.0, 3.0)) {
+        if (channel_sum(p.strength) == 0.0) continue;
+        const LightcutOptions options{.max_cut = 300};
+        const auto cut = shade(tree, p.receiver, oracle, options);
+        const auto result = gather(tree, std::vector{p}, oracle, ProductOptions{.cut = options});
+        EXPECT_EQ(result.radiance, cut.radiance * p.strength);
+        EXPECT_EQ(result.cut_size, cut.cut_size);
+        EXPECT_EQ(result.queries, cut.queries);
+        EXPECT_EQ(result.pairs, 500.0);
+    }
+}
+
+TEST(Gather, SeparatePointsAreACutToo) {
+    Random random(4);
+    Room<V> room(4);
+    const auto lights = room.oriented(300);
+    const LightTree tree(lights);
+    const auto occluders = room.occluders();
+    const ScalarOccluders oracle{occluders};
+    const auto points = diffuse_points(random, 20, 0.2, 0.5);
+    const glm::dvec3 truth = sum_of_pairs(points, lights, oracle);
+    const auto together = gather(tree, points, oracle);
+    const auto separate = gather(tree, points, oracle, ProductOptions{.separate_points = true});
+    expect_within_bound(together, truth);
+    expect_within_bound(separate, truth);
+    EXPECT_LT(together.cut_size, separate.cut_size);
+}
+
+TEST(Gather, BatchedAndScalarOraclesAgree) {
+    Random random(6);
+    Room<V> room(6);
+    const auto lights = room.oriented(300);
+    const LightTree tree(lights);
+    const auto occluders = room.occluders();
+    const auto points = glossy_points(random, 20, 0.2, 0.5);
+    const auto scalar = gather(tree, points, ScalarOccluders{occluders});
+    const auto batched = gather(tree, points, BatchedOccluders{occluders});
+    EXPECT_EQ(scalar.radiance, batched.radiance);
+    EXPECT_EQ(scalar.error_bound, batched.error_bound);
+    EXPECT_EQ(scalar.queries, batched.queries);
+}
+
+TEST(Gather, NothingAllocatesOnceWarm) {
+    // See allocation_test.cpp of cuts, which counts; here storage stays where it is.
+    Random random(8);
+    Room<V> room(8);
+    const auto lights = room.oriented(300);
+    const LightTree tree(lights);
+    const auto points = diffuse_points(random, 64, 0.2, 0.5);
+    GatherForest<DiffusePoint> forest;
+    gather_scratch_of<LightTree<OrientedPointLight<V>>> scratch;
+    forest.build(points, {});
+    const auto first = gather(tree, forest, AlwaysVisible{}, scratch);
+    const std::size_t capacity = scratch.refinement.capacity();
+    for (int i = 0; i < 3; ++i) {
+        forest.build(points, {});
+        const auto again = gather(tree, forest, AlwaysVisible{}, scratch);
+        EXPECT_EQ(first.radiance, again.radiance);
+        EXPECT_EQ(scratch.refinement.capacity(), capacity);
+    }
+}
+
+TEST(Gather, DegenerateSumsAreRight) {
+    Room<V> room(2);
+    const auto lights = room.oriented(50);
+    const LightTree tree(lights);
+    const LightTree<OrientedPointLight<V>> dark;
+    const auto no_points = std::vector<DiffusePoint>{};
+    EXPECT_EQ(gather(tree, no_points).radiance, V(0.0f));
+    EXPECT_EQ(gather(tree, no_points).stop, StopReason::converged);
+    Random random(2);
+    auto points = diffuse_points(random, 10, 0.0, 0.0);  // all at one place, facing one way
+    EXPECT_EQ(gather(dark, points).radiance, V(0.0f));
+    expect_near(gather(tree, points, AlwaysVisible{}, exact).radiance,
+                sum_of_pairs(points, lights, [](const auto&, const auto&) { return 1.0; }), 2e-5);
+    for (DiffusePoint& p : points) p.strength = V(0.0f);
+    EXPECT_EQ(gather(tree, points).radiance, V(0.0f));
+    points[3].strength = V(0.0f, -1.0f, 0.0f);
+    EXPECT_THROW(gather(tree, points), invalid_input);
+    points[3].strength = V(0.0f, INFINITY, 0.0f);
+    EXPECT_THROW(gather(tree, points), invalid_input);
+}
+
+TEST(Gather, RefusesClampingByShare) {
+    Room<V> room(2);
+    const auto lights = room.oriented(50);
+    const LightTree tree(lights);
+    const auto no_points = std::vector<DiffusePoint>{};
+    EXPECT_THROW(gather(tree, no_points, AlwaysVisible{}, ProductOptions{.cut = {.clamp = automatic_clamping}}),
+                 invalid_input);
 }
 
 }  // namespace

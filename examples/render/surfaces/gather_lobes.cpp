@@ -46,8 +46,7 @@ lightcuts::CosineLobe<glm::vec3> DiffuseLobe::cosine_lobe() const {
 
 GlossyLobe::GlossyLobe(const SurfacePoint& p)
     : geometric_normal_(p.geometric_normal),
-      main_direction_(sharpness(p) *
-                      (2.0f * glm::dot(p.shading_normal, p.to_viewer) * p.shading_normal - p.to_viewer)),
+      main_direction_(sharpness(p) * (2.0f * glm::dot(p.shading_normal, p.to_viewer) * p.shading_normal - p.to_viewer)),
       lobe_(lobe_of(p)) {}
 
 glm::vec3 GlossyLobe::evaluate(const glm::vec3& to_light) const {
@@ -85,13 +84,13 @@ void GatherPoints::add(const SurfacePoint& p, float share) {
     const auto name = static_cast<std::uint32_t>(hash);
     const glm::vec3 weight = p.weight * share;
     if (p.diffuse != black) {
-        diffuse.push_back({{p.position, {p.shading_normal, p.geometric_normal}, p.ray_origin, name},
-                           weight * p.diffuse});
+        diffuse.push_back(
+            {{p.position, {p.shading_normal, p.geometric_normal}, p.ray_origin, name}, weight * p.diffuse});
     }
     if (p.transmitted != black) {
         const glm::vec3 behind = p.position + (p.position - p.ray_origin);
-        diffuse.push_back({{p.position, {-p.shading_normal, -p.geometric_normal}, behind, name},
-                           weight * p.transmitted});
+        diffuse.push_back(
+            {{p.position, {-p.shading_normal, -p.geometric_normal}, behind, name}, weight * p.transmitted});
     }
     if (has_gloss(p)) glossy.push_back({{p.position, GlossyLobe(p), p.ray_origin, name}, weight});
 }

@@ -15,7 +15,7 @@ namespace render {
 
 /// Lambert's lobe of albedo 1 above both normals of a surface.
 struct DiffuseLobe {
-    glm::vec3 normal{0.0f};            ///< the shading normal
+    glm::vec3 normal{0.0f};  ///< the shading normal
     glm::vec3 geometric_normal{0.0f};
 
     glm::vec3 evaluate(const glm::vec3& to_light) const;

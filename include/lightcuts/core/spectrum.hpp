@@ -97,6 +97,15 @@ constexpr float channel_max(const S& s) {
     return largest;
 }
 
+/// Of each channel the larger one.
+template <Spectrum S>
+constexpr S larger_channels(const S& a, const S& b) {
+    return make_spectrum<S>([&](int i) {
+        const float x = channel(a, i), y = channel(b, i);
+        return x > y ? x : y;
+    });
+}
+
 /// True iff every channel is exactly zero.
 template <Spectrum S>
 constexpr bool is_black(const S& s) {

@@ -138,8 +138,15 @@ public:
     GgxEnvelope<S, Shadowing> envelope() const {
         if (!(frame_.cos_view() > 0.0)) return {};
         const glm::dvec3 n = frame_.normal(), v = frame_.view();
-        return {detail::cone_about(n), detail::cone_about(2.0 * frame_.cos_view() * n - v), detail::cone_about(v),
-                alpha2_, alpha2_, frame_.cos_view(), f0_, f90_, true};
+        return {detail::cone_about(n),
+                detail::cone_about(2.0 * frame_.cos_view() * n - v),
+                detail::cone_about(v),
+                alpha2_,
+                alpha2_,
+                frame_.cos_view(),
+                f0_,
+                f90_,
+                true};
     }
 
 private:

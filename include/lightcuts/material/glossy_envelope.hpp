@@ -26,18 +26,10 @@ inline double min_cosine_to_cone(const Cone& cone, const OffsetBox& box) {
     return -widen_cosine(max_cosine(-unit_axis(cone), box), negated(cone));
 }
 
-template <Spectrum S>
-S largest_of(const S& a, const S& b) {
-    return make_spectrum<S>([&](int c) {
-        const float x = channel(a, c), y = channel(b, c);
-        return x > y ? x : y;
-    });
-}
-
 }  // namespace detail
 
-/// Dominates several of Phong's lobes [Lafortune and Willems 1994]: by cones of their normals and mirror directions, and
-/// their range of exponents.
+/// Dominates several of Phong's lobes [Lafortune and Willems 1994]: by cones of their normals and mirror directions,
+/// and their range of exponents.
 template <Spectrum S>
 struct PhongEnvelope {
     Cone normals{};
@@ -53,8 +45,8 @@ struct PhongEnvelope {
         const double cosine = detail::max_cosine_to_cone(normals, box) + 2.0 * detail::direction_error;
         const double along = detail::max_cosine_to_cone(mirrors, box, 0.01 / (1.0 + largest_exponent)) + 1e-12;
         if (!(cosine > 0.0 && along > 0.0)) return black<S>();
-        return detail::scaled_up(specular, peak(along < 1.0 ? along : 1.0) * 0.15915494309189535 *
-                                               (cosine < 1.0 ? cosine : 1.0));
+        return detail::scaled_up(specular,
+                                 peak(along < 1.0 ? along : 1.0) * 0.15915494309189535 * (cosine < 1.0 ? cosine : 1.0));
     }
 
     /// Dominates what either dominates.
@@ -64,7 +56,7 @@ struct PhongEnvelope {
         return {merge(a.normals, b.normals), merge(a.mirrors, b.mirrors),
                 a.least_exponent < b.least_exponent ? a.least_exponent : b.least_exponent,
                 a.largest_exponent > b.largest_exponent ? a.largest_exponent : b.largest_exponent,
-                detail::largest_of(a.specular, b.specular)};
+                larger_channels(a.specular, b.specular)};
     }
 
 private:
@@ -124,7 +116,7 @@ struct GgxEnvelope {
                 least(a.least_alpha2, b.least_alpha2),
                 most(a.largest_alpha2, b.largest_alpha2),
                 least(a.least_cos_view, b.least_cos_view),
-                detail::largest_of(a.f0, b.f0),
+                larger_channels(a.f0, b.f0),
                 most(a.f90, b.f90),
                 true};
     }
@@ -148,8 +140,8 @@ private:
     double shadowed_cosine(double cosine) const {
         const double root = std::sqrt(least_alpha2 + (1.0 - least_alpha2) * (cosine * cosine));
         const double of_view = std::sqrt(least_alpha2 + (1.0 - least_alpha2) * (least_cos_view * least_cos_view));
-        return cosine / Shadowing::denominator(least_cos_view, of_view < 1.0 ? of_view : 1.0, cosine,
-                                               root < 1.0 ? root : 1.0);
+        return cosine /
+               Shadowing::denominator(least_cos_view, of_view < 1.0 ? of_view : 1.0, cosine, root < 1.0 ? root : 1.0);
     }
 };
 

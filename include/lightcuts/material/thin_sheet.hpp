@@ -31,14 +31,15 @@ struct ThinSheet {
         add_lanes(back(), to_lights, count, values);
     }
     S upper_bound(const OffsetBox& offsets) const requires(BoundedMaterial<Front>&& BoundedMaterial<Back>) {
-        return larger(front().upper_bound(offsets), back().upper_bound(offsets));
+        // A light is on one side only, so that the larger bound holds for both.
+        return larger_channels(front().upper_bound(offsets), back().upper_bound(offsets));
     }
     void quick_upper_bounds(const OffsetBlock& offsets, LaneSpectra<S>& bounds) const
         requires(BoundedMaterial<Front>&& BoundedMaterial<Back>) {
         LaneSpectra<S> others;
         front().quick_upper_bounds(offsets, bounds);
         back().quick_upper_bounds(offsets, others);
-        for (std::size_t i = 0; i < bounds.size(); ++i) bounds[i] = larger(bounds[i], others[i]);
+        for (std::size_t i = 0; i < bounds.size(); ++i) bounds[i] = larger_channels(bounds[i], others[i]);
     }
     /// Calls f for each component of either side, as seen above that side's horizon.
     template <class F>
@@ -60,11 +61,6 @@ private:
         } else {
             f(side);
         }
-    }
-
-    /// Channel-wise maximum: a light is on one side only, so that the larger bound holds for both.
-    static S larger(const S& a, const S& b) {
-        return make_spectrum<S>([&](int c) { return detail::larger(channel(a, c), channel(b, c)); });
     }
 };
 

@@ -27,7 +27,7 @@ concept EnvelopedMaterial = Material<M> && requires(const M& m) {
 /// Dominates cosine lobes about several normals.
 template <Spectrum S>
 struct CosineEnvelope {
-    Cone normals;                ///< holds them all
+    Cone normals;                  ///< holds them all
     S largest_scale = black<S>();  ///< 1/sr
 
     CosineLobe<S, Cone> cosine_lobe() const { return {normals, largest_scale}; }
@@ -36,10 +36,7 @@ struct CosineEnvelope {
 /// Dominates what either dominates.
 template <Spectrum S>
 CosineEnvelope<S> merge(const CosineEnvelope<S>& a, const CosineEnvelope<S>& b) {
-    return {merge(a.normals, b.normals), make_spectrum<S>([&](int c) {
-                const float x = channel(a.largest_scale, c), y = channel(b.largest_scale, c);
-                return x > y ? x : y;
-            })};
+    return {merge(a.normals, b.normals), larger_channels(a.largest_scale, b.largest_scale)};
 }
 
 namespace detail {

@@ -27,8 +27,9 @@ struct GatherResult : CutResult<S> {
     double pairs = 0.0;  ///< gather points times lights
 };
 
-/// Storage that `gather` reuses; one for each thread. No allocation once warm. `Timed`: some lights exist at instants.
-template <Spectrum S, bool Timed = false>
+/// Storage that `gather` reuses; one for each thread. No allocation once warm. `Timed`: some lights exist at instants;
+/// `Clamps`: some may be clamped.
+template <Spectrum S, bool Timed = false, bool Clamps = false>
 struct GatherScratch {
     using Node = ProductNode<S, Timed>;
 
@@ -37,7 +38,8 @@ struct GatherScratch {
     ReusableList<Node> redrawn;
     ReusableList<VisibilityQuery> queries;
     std::vector<float> answers;
-    std::vector<S> transmittances;  ///< answers that are spectra
+    std::vector<S> transmittances;         ///< answers that are spectra
+    LightcutScratch<S, Clamps> one_point;  ///< for sums over a single gather point
 };
 
 namespace detail {
@@ -75,16 +77,54 @@ concept GatherableLights = requires {
 /// The scratch for gathering from such lights.
 template <GatherableLights T>
 using gather_scratch_of =
-    GatherScratch<typename detail::GatherLights<T>::type::spectrum, detail::GatherLights<T>::type::timed>;
+    GatherScratch<typename detail::GatherLights<T>::type::spectrum, detail::GatherLights<T>::type::timed,
+                  detail::GatherLights<T>::type::forest_type::clamps>;
 
 namespace detail {
 
-template <class Lights, class Points, class Oracle, class Policy>
+/// The sum over one gather point: its lightcut.
+template <class Forest, class G, class Oracle, class Scratch, class Policy>
+GatherResult<typename Forest::spectrum> gather_at_one_point(const Forest& forest, const G& point, const Oracle& oracle,
+                                                            Scratch& scratch, LightcutOptions options,
+                                                            const Policy& policy) {
+    using S = typename Forest::spectrum;
+    // The least that it is of a channel: the threshold is then at most what it is of the sum.
+    options.adaptation /= channel_max(point.strength);
+    GatherResult<S> result{shade(forest, point.receiver, oracle, scratch, options, policy)};
+    result.radiance = finite_product(result.radiance, point.strength);
+    const auto scaled = [&](const S& bound) {
+        return make_spectrum<S>([&](int c) {
+            const double b = static_cast<double>(channel(bound, c)),
+                         s = static_cast<double>(channel(point.strength, c));
+            return s > 0.0 ? round_up(b * s) : 0.0f;
+        });
+    };
+    result.error_bound = scaled(result.error_bound);
+    S largest = black<S>();
+    scratch.in_progress.front().refinement.for_each(
+        [&](const auto& n) { largest = larger_channels(largest, n.bound); });
+    result.largest_bound = scaled(largest);
+    result.pairs = static_cast<double>(forest.light_count());
+    return result;
+}
+
+template <class Lights, class Points, class Oracle, class Scratch, class Policy>
 GatherResult<typename Lights::spectrum> gather_pairs(const Lights& lights, const Points& points, const Oracle& oracle,
-                                                     GatherScratch<typename Lights::spectrum, Lights::timed>& scratch,
-                                                     const ProductOptions& options, const Policy& policy) {
+                                                     Scratch& scratch, const ProductOptions& options,
+                                                     const Policy& policy) {
     using S = typename Lights::spectrum;
     using Node = ProductNode<S, Lights::timed>;
+    if constexpr (!Lights::timed) {
+        if (points.point_count() == 1 && !options.redraw) {
+            GatherResult<S> result;
+            points.for_each([&](std::uint32_t, const auto& tree) {
+                if (tree.empty()) return;
+                result = gather_at_one_point(lights.forest(), tree.point(tree.topology().root()), oracle,
+                                             scratch.one_point, options.cut, policy);
+            });
+            return result;
+        }
+    }
     std::uint32_t queries = 0;
     ProductProblem<Lights, Points, Oracle, Policy> problem(lights, points, oracle, policy, options, scratch.total,
                                                            queries, scratch.queries);
@@ -95,8 +135,9 @@ GatherResult<typename Lights::spectrum> gather_pairs(const Lights& lights, const
         if constexpr (AnswersMany<Oracle, S>) {
             scratch.queries.clear();
             problem.request(fresh);
-            problem.receive(fresh, ask_many(oracle, std::span(std::as_const(scratch.queries).data(), scratch.queries.size()),
-                                            answers_for<Oracle, S>(scratch)));
+            problem.receive(fresh,
+                            ask_many(oracle, std::span(std::as_const(scratch.queries).data(), scratch.queries.size()),
+                                     answers_for<Oracle, S>(scratch)));
         } else {
             problem.evaluate(fresh);
         }
@@ -107,7 +148,8 @@ GatherResult<typename Lights::spectrum> gather_pairs(const Lights& lights, const
         scratch.refinement.absorb(problem);
     } while (scratch.refinement.split(problem, refinement));
 
-    ChannelSums<S> radiance{}, bound{}, largest{};
+    ChannelSums<S> radiance{}, bound{};
+    S largest = black<S>();
     const auto add_estimate = [&](const Node& n) {
         for (std::size_t c = 0; c < radiance.size(); ++c) {
             radiance[c] += static_cast<double>(channel(n.estimate, static_cast<int>(c)));
@@ -115,10 +157,9 @@ GatherResult<typename Lights::spectrum> gather_pairs(const Lights& lights, const
     };
     scratch.refinement.for_each([&](const Node& n) {
         for (std::size_t c = 0; c < bound.size(); ++c) {
-            const auto b = static_cast<double>(channel(n.bound, static_cast<int>(c)));
-            bound[c] += b;
-            largest[c] = b > largest[c] ? b : largest[c];
+            bound[c] += static_cast<double>(channel(n.bound, static_cast<int>(c)));
         }
+        largest = larger_channels(largest, n.bound);
     });
     if (options.redraw) {
         scratch.redrawn.clear();
@@ -134,7 +175,7 @@ GatherResult<typename Lights::spectrum> gather_pairs(const Lights& lights, const
         scratch.refinement.for_each(add_estimate);
     }
     GatherResult<S> result{result_of<S>(radiance, bound)};
-    result.largest_bound = make_spectrum<S>([&](int c) { return round_up(largest[static_cast<std::size_t>(c)]); });
+    result.largest_bound = largest;
     result.cut_size = static_cast<std::uint32_t>(scratch.refinement.size());
     result.queries = queries;
     result.stop = scratch.refinement.stop_reason();
@@ -151,6 +192,7 @@ GatherResult<typename Lights::spectrum> gather_pairs(const Lights& lights, const
 /// `points`: a GatherForest built with as many instants as the lights have. Lights may be clamped by transfer.
 /// threads: safe with one scratch and one GatherForest each. cost: about one shadow ray, three bounds and a half for
 /// two pairs on the cut.
+/// The sum over a single gather point is its lightcut.
 /// throws: invalid_input if `options` ask for clamping by radiance or share.
 template <GatherableLights Lights, AnyGatherPoint... Gs, class Oracle, class Policy = TwoStageBounds>
 GatherResult<typename GatherForest<Gs...>::spectrum> gather(const Lights& lights, const GatherForest<Gs...>& points,

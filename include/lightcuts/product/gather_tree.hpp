@@ -35,8 +35,8 @@ struct GatherTreeOptions {
     /// The diagonal of the scene in world units: an eighth of it is what a unit of direction counts for where positions
     /// and directions are compared [Multidimensional Lightcuts 2006, section 3.4]. 0: that of the gather points' box.
     double scene_diagonal = 0.0;
-    /// Most gather points that may represent a cluster, 1 to 32, where there is one instant. Each pair of clusters draws
-    /// one. With 1 all pairs of a cluster share a point, and are wrong together where it alone is in shadow.
+    /// Most gather points that may represent a cluster, 1 to 32, where there is one instant. Each pair of clusters
+    /// draws one. With 1 all pairs of a cluster share a point, and are wrong together where it alone is in shadow.
     unsigned representatives = 32;
     /// Representatives are chosen by a hash of it.
     std::uint64_t seed = 1;
@@ -75,7 +75,7 @@ public:
     /// What a node knows of the points below it.
     struct Cluster {
         Box box;
-        spectrum strength = black<spectrum>();              ///< sum over the points
+        spectrum strength = black<spectrum>();           ///< sum over the points
         [[no_unique_address]] envelope_type envelope{};  ///< dominates the points' lobes
     };
 
@@ -97,10 +97,7 @@ public:
             for (node_index n = tree_->topology_.left_leaf(node_); n <= node_; ++n) {
                 if (!tree_->topology_.is_leaf(n)) continue;
                 const auto one = detail::upper_bound_over<spectrum>(tree_->point(n).receiver.material, box);
-                largest = make_spectrum<spectrum>([&](int c) {
-                    const float x = channel(largest, c), y = channel(one, c);
-                    return x > y ? x : y;
-                });
+                largest = larger_channels(largest, one);
             }
             return largest;
         }
@@ -112,7 +109,8 @@ public:
         node_index node_ = 0;
     };
 
-    /// What bounds the points of a cluster: the envelope of cosine lobes, from which the bound policy forms joint bounds.
+    /// What bounds the points of a cluster: the envelope of cosine lobes, from which the bound policy forms joint
+    /// bounds.
     static constexpr bool by_envelope = BoundsByCosineLobe<envelope_type, spectrum>;
     using bound_type = std::conditional_t<by_envelope, envelope_type, LobesBelow>;
 

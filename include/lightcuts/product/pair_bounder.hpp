@@ -43,7 +43,8 @@ public:
     }
     template <class Policy>
     const std::array<S, static_cast<std::size_t>(lane_count)>& bound(const Policy& policy) {
-        if (count_ > 0) quick_pair_bounds(policy, bounds_.data(), clusters_.data(), count_, boxes_.data(), units_.data());
+        if (count_ > 0)
+            quick_pair_bounds(policy, bounds_.data(), clusters_.data(), count_, boxes_.data(), units_.data());
         return units_;
     }
 

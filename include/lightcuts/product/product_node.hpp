@@ -32,11 +32,11 @@ struct ProductNode {
     S bound = black<S>();       ///< upper bound of the pair's error; 0 for one gather point and one light
     std::uint8_t gather_kind = 0;
     std::uint8_t light_kind = 0;
-    bool bounded = false;                  ///< `unit_bound` is the pair's own
-    bool queried = false;                  ///< `transfer` waits for the representatives, or for their shadow ray
-    PairSide side = PairSide::undecided;   ///< the side to split
-    std::uint8_t gather_splits = 0;        ///< splits of the gather side since the last of the light side
-    std::uint8_t light_splits = 0;         ///< splits of the light side since the last of the gather side
+    bool bounded = false;                     ///< `unit_bound` is the pair's own
+    bool queried = false;                     ///< `transfer` waits for the representatives, or for their shadow ray
+    PairSide side = PairSide::undecided;      ///< the side to split
+    std::uint8_t gather_splits = 0;           ///< splits of the gather side since the last of the light side
+    std::uint8_t light_splits = 0;            ///< splits of the light side since the last of the gather side
     [[no_unique_address]] Instant instant{};  ///< of the representatives
 };
 

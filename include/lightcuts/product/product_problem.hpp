@@ -192,7 +192,9 @@ private:
         std::uint8_t light;
     };
 
-    static std::uint8_t next(std::uint8_t splits) { return splits < 64 ? static_cast<std::uint8_t>(splits + 1) : splits; }
+    static std::uint8_t next(std::uint8_t splits) {
+        return splits < 64 ? static_cast<std::uint8_t>(splits + 1) : splits;
+    }
 
     template <class F>
     decltype(auto) visit(const Node& n, const F& f) const {
@@ -424,9 +426,8 @@ private:
     void trace(Node& n) const {
         visit(n, [&](auto, const auto& points, const auto& lights, const auto&) {
             const auto& light = lights.lights()[lights.topology().item(n.light_representative)];
-            detail::with_shadow_origin(points.point(n.gather_representative).receiver, light, [&](const auto& lit) {
-                receive(n, detail::as_factor<S>(oracle_(lit, light)));
-            });
+            detail::with_shadow_origin(points.point(n.gather_representative).receiver, light,
+                                       [&](const auto& lit) { receive(n, detail::as_factor<S>(oracle_(lit, light))); });
         });
     }
 
