@@ -9,6 +9,7 @@
 
 #include <lightcuts/material/ggx.hpp>
 #include <lightcuts/material/lambert.hpp>
+#include <lightcuts/material/phase_function.hpp>
 #include <lightcuts/material/phong.hpp>
 #include "support/random.hpp"
 
@@ -90,6 +91,14 @@ TEST(Envelope, OfGgxWithSeparableShadowingDominatesEachLobe) {
         return Ggx<V, SeparableShadowing>(n, v, V(random.real(0, 1), 0.04f, 0.0f),
                                           static_cast<float>(random.decades(-4.0, 0.3)));
     });
+}
+TEST(Envelope, OfHenyeyGreensteinDominatesEachPhaseFunction) {
+    for (const bool alike : {true, false}) {
+        expect_dominates([alike](Random& random, const V&, const V& v) {
+            const float g = alike ? 0.7f : static_cast<float>(1.0 - random.decades(-5.0, 0.3));
+            return HenyeyGreenstein<V>(v, V(random.real(0, 1), 1.0f, 0.0f), random.chance(0.1) ? 0.0f : g);
+        });
+    }
 }
 
 }  // namespace
