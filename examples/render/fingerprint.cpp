@@ -63,6 +63,12 @@ void add_options(Fingerprint& print, const Options& o) {
     add("--indirect", o.indirect);
     add("--clamp", o.clamp.is_automatic() ? "auto" : text_of(o.clamp.radiance));
     add("--clamp-ratio", o.clamp.ratio);
+    add("--fog", o.fog);
+    add("--fog-albedo", o.fog_albedo);
+    add("--fog-anisotropy", o.fog_anisotropy);
+    add("--aperture", o.aperture);
+    add("--focus", o.focus ? text_of(*o.focus) : "target");
+    add("--filter", o.filter);
     add("--materials", std::string(o.diffuse_materials ? "diffuse" : "full"));
     add("--aov", listed(o.aovs));
     // An option that is not among these may change the picture: it is part of the fingerprint.
@@ -117,8 +123,8 @@ void add_scene(Fingerprint& print, const Scene& scene) {
     // Left out: names, counts and messages, and `lighting`, from which the lights and the background were made.
     const auto& [name, origin, positions, normals, tangents, colors, uv_sets, triangles, triangle_material, materials,
                  textures, cameras, omni, oriented, spots, directional, spheres, sphere_points, virtual_lights,
-                 environment_lights, sun_lights, sky_lights, ground_lights, lighting, background, dropped_triangles,
-                 dropped_lights, left_out, files] = scene;
+                 environment_lights, sun_lights, sky_lights, ground_lights, lighting, background, fog,
+                 dropped_triangles, dropped_lights, left_out, files] = scene;
     ContentHash surfaces, matter, lights, around;
     surfaces.add(origin).add(positions).add(normals).add(tangents).add(colors).add(uv_sets.size());
     for (const std::vector<glm::vec2>& uvs : uv_sets) surfaces.add(uvs);

@@ -201,7 +201,10 @@ ExitStatus render_scene(Options options) {
         report.seconds.particles = watch.lap();
         const auto shader = make_shader(scene, rays, options);
         report.seconds.tree = watch.lap();
-        const View view(camera, scene.origin, options.width, options.height);
+        const double focus = options.focus ? static_cast<double>(*options.focus)
+                                           : glm::length(camera.target - camera.eye);
+        const View view(camera, scene.origin, options.width, options.height,
+                        {.aperture = static_cast<double>(options.aperture), .focus = focus});
         const EyePathTracer surfaces(scene, rays, shade);
         report.adaptation = options.adaptation ? *options.adaptation : measure_adaptation(view, surfaces, *shader);
         shader->adapt(report.adaptation);

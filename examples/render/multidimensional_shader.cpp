@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include <lightcuts/bound/attenuated.hpp>
 #include <lightcuts/product/gather.hpp>
 
 #include "interrupt.hpp"
@@ -59,12 +60,14 @@ public:
         for (const SurfacePoint& p : points) own.points.add(p, share);
         lightcuts::GatherTreeOptions tree = tree_;
         tree.seed = lightcuts::hash_keys(tree_.seed, points.front().pixel);
-        own.trees.build(own.points.diffuse, own.points.glossy, tree);
+        own.trees.build(own.points.diffuse, own.points.glossy, own.points.fog, tree);
         lightcuts::ProductOptions product = product_;
         product.id = points.front().pixel;
         Shading shading;
         with_oracle(scene_, rays_, [&](const auto& oracle) {
-            const auto result = lightcuts::gather(forest_, own.trees, oracle, own.pairs, product);
+            const lightcuts::AttenuatedBounds<lightcuts::UniformMedium, lightcuts::TwoStageBounds> bounds(
+                scene_.fog.medium, own.points.shadow_offset);
+            const auto result = lightcuts::gather(forest_, own.trees, oracle, own.pairs, product, bounds);
             shading = {result.radiance, result.error_bound, glm::vec3(std::numeric_limits<float>::infinity()),
                        result.cut_size, result.queries,     result.stop == lightcuts::StopReason::limit};
         });
@@ -82,7 +85,7 @@ public:
 private:
     struct PairScratch final : Scratch {
         GatherPoints points;
-        lightcuts::GatherForest<DiffuseGatherPoint, GlossyGatherPoint> trees;
+        lightcuts::GatherForest<DiffuseGatherPoint, GlossyGatherPoint, FogGatherPoint> trees;
         lightcuts::gather_scratch_of<Forest> pairs;
     };
 

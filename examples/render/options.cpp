@@ -12,6 +12,7 @@
 #include <glm/geometric.hpp>
 
 #include "io/escape.hpp"
+#include "pixel_filter.hpp"
 #include "rays/ray_tracer.hpp"
 
 namespace render {
@@ -24,7 +25,7 @@ constexpr long long largest_picture = 1ll << 27;  ///< pixels
 const std::vector<std::string> methods = {"exhaustive", "lightcuts",     "multidimensional",   "ward",
                                           "power",      "tree-sampling", "adaptive-splitting", "stochastic-lightcuts"};
 const std::vector<std::string> later_methods = {"reconstruction", "row-column"};
-const std::vector<std::string> later_options = {"--instants", "--shutter", "--aperture", "--focus", "--fog"};
+const std::vector<std::string> later_options = {"--instants", "--shutter"};
 const std::vector<std::string> builders = {"binned", "agglomerate", "longest-axis"};
 
 bool contains(const std::vector<std::string>& words, const std::string& word) {
@@ -152,6 +153,7 @@ void check_together(const Options& options) {
     if (!options.camera.empty() && options.eye) {
         throw usage_error("--camera and --eye name two cameras: give one of them");
     }
+    if (options.focus && options.aperture == 0.0f) throw usage_error("--focus needs --aperture: a pinhole is sharp");
     if (options.up && !options.eye) throw usage_error("--up needs --eye and --target");
     if (options.eye && *options.eye == *options.target) {
         throw usage_error("--target is the same point as --eye: give two that differ");
@@ -297,6 +299,24 @@ Options parse_options(int argc, const char* const* argv) {
     text("--clamp-ratio", "R", "that share of a point's total (0.01)", [&](const std::string& s) {
         clamp_ratio = number_in("--clamp-ratio", s, std::numeric_limits<float>::min(), std::nextafter(1.0f, 0.0f),
                                 "a number above 0 and below 1");
+    });
+    text("--fog", "SIGMA", "extinction of a uniform medium in the scene's box, per unit of length (0)",
+         [&](const std::string& s) { options.fog = number_in("--fog", s, 0.0f, huge, "a number of at least 0"); });
+    text("--fog-albedo", "A", "share of the light that fog scatters (0.9)", [&](const std::string& s) {
+        options.fog_albedo = number_in("--fog-albedo", s, 0.0f, 1.0f, "a number from 0 to 1");
+    });
+    text("--fog-anisotropy", "G", "mean cosine of its scattering, forward above 0 (0)", [&](const std::string& s) {
+        options.fog_anisotropy = number_in("--fog-anisotropy", s, -0.999f, 0.999f, "a number from -0.999 to 0.999");
+    });
+    text("--aperture", "D", "diameter of the lens, in units of the scene (0: a pinhole)", [&](const std::string& s) {
+        options.aperture = number_in("--aperture", s, 0.0f, huge, "a number of at least 0");
+    });
+    text("--focus", "D", "distance of what is sharp (the target's)", [&](const std::string& s) {
+        options.focus = number_in("--focus", s, std::numeric_limits<float>::min(), huge, "a number above 0");
+    });
+    text("--filter", "NAME", "of pixels: " + listed(pixel_filters()) + " (box)", [&](const std::string& s) {
+        if (!contains(pixel_filters(), s)) refuse("--filter", s, "one of " + listed(pixel_filters()));
+        options.filter = s;
     });
     text("--materials", "full|diffuse", "diffuse: Lambert with the base color everywhere (full)",
          [&](const std::string& s) {

@@ -60,6 +60,12 @@ struct Options {
     std::uint32_t sky_lights = 5000;  ///< that stand for the sky; 0: it is only seen
     float ground = 0.2f;              ///< albedo of what is below the horizon, with `sun_sky`
     std::uint32_t indirect = 0;       ///< about so many virtual lights; 0: direct light only
+    float fog = 0.0f;                 ///< extinction of the medium in the scene's box, per unit of length; 0: none
+    float fog_albedo = 0.9f;          ///< share of the light that it scatters
+    float fog_anisotropy = 0.0f;      ///< mean cosine of its scattering
+    float aperture = 0.0f;            ///< diameter of the lens, in units of the scene; 0: a pinhole
+    std::optional<float> focus;       ///< distance of what is sharp; empty: that of the target
+    std::string filter = "box";       ///< of pixels: one of pixel_filters()
     /// Of virtual lights, by methods that clamp.
     lightcuts::ClampingOptions clamp = lightcuts::automatic_clamping;
     bool diffuse_materials = false;   ///< everything is Lambert with its base color

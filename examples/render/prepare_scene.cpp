@@ -1,5 +1,8 @@
 #include "prepare_scene.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "io/light_table.hpp"
 #include "io/load_scene.hpp"
 #include "io/validate.hpp"
@@ -10,6 +13,21 @@
 
 namespace render {
 
+namespace {
+
+void add_fog(Scene& scene, const Options& options) {
+    lightcuts::Box box;
+    for (const glm::vec3& p : scene.positions) box = lightcuts::merge(box, lightcuts::box_of(p));
+    // Points of the surfaces themselves lie inside.
+    const auto margin = static_cast<float>(0.01 * std::sqrt(lightcuts::diagonal2(box)));
+    scene.fog = {lightcuts::UniformMedium(options.fog, {box.lo - margin, box.hi + margin}), options.fog_albedo,
+                 options.fog_anisotropy, std::max(4.0f, 64.0f / static_cast<float>(options.spp))};
+    if (options.indirect > 0)
+        leave_out(scene.left_out, "light that fog scatters to surfaces", "indirect light passes fog only");
+}
+
+}  // namespace
+
 Scene prepare_scene(Options& options) {
     Scene scene = load_scene(options.scene);
     if (!options.lights.empty()) add_light_table(options.lights, scene);
@@ -17,6 +35,7 @@ Scene prepare_scene(Options& options) {
     add_sphere_lights(scene, options.area_points, options.seed);
     add_surroundings(scene, options);
     require_lights(scene);
+    if (options.fog > 0.0f) add_fog(scene, options);
     if (options.indirect > 0) name_amplifying_materials(scene);
     return scene;
 }

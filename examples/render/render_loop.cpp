@@ -11,6 +11,7 @@
 
 #include "interrupt.hpp"
 #include "io/resume_file.hpp"
+#include "pixel_filter.hpp"
 #include "progress.hpp"
 #include "tile_order.hpp"
 
@@ -87,10 +88,21 @@ public:
 private:
     std::uint32_t pixel_index(int x, int y) const { return static_cast<std::uint32_t>(y * view_.width() + x); }
 
+    EyeRay eye_ray(int x, int y, int sample) const {
+        const std::uint32_t pixel = pixel_index(x, y);
+        LensSample at;
+        if (view_.has_lens()) {
+            at = lens_sample(options_.seed, pixel, sample, options_.spp);
+        } else {
+            at.offset = pixel_offset(options_.seed, pixel, sample, options_.spp);
+        }
+        const glm::vec2 offset = filtered(options_.filter, at.offset);
+        return view_.ray(static_cast<float>(x) + offset.x, static_cast<float>(y) + offset.y, at.lens);
+    }
+
     void cast(int x, int y, int sample, PixelSum& sum, std::vector<SurfacePoint>& points) const {
         const std::uint32_t pixel = pixel_index(x, y);
-        const glm::vec2 offset = pixel_offset(options_.seed, pixel, sample, options_.spp);
-        const EyeRay ray = view_.ray(static_cast<float>(x) + offset.x, static_cast<float>(y) + offset.y);
+        const EyeRay ray = eye_ray(x, y, sample);
         const EyeRaySeen seen = surfaces_.follow(ray, pixel, static_cast<std::uint32_t>(sample), points);
         sum.radiance += glm::dvec3(seen.emitted);
         if (std::isfinite(seen.depth)) {

@@ -17,6 +17,7 @@
 #include <lightcuts/light/spot.hpp>
 #include <lightcuts/source/sphere.hpp>
 
+#include "fog.hpp"
 #include "io/left_out.hpp"
 #include "lights/background.hpp"
 #include "lights/lighting.hpp"
@@ -154,6 +155,7 @@ struct Scene {
 
     Lighting lighting;
     Background background;
+    Fog fog;
 
     std::size_t dropped_triangles = 0;         ///< of zero area, left out when the scene was checked
     std::size_t dropped_lights = 0;            ///< of zero intensity, left out likewise

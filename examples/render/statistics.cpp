@@ -67,6 +67,12 @@ Json options_json(const RunReport& report) {
                     : clamp.has_threshold() ? Json(as_written(clamp.radiance))
                                             : Json("off");
     json["clamp_ratio"] = clamp.is_automatic() ? Json(as_written(clamp.ratio)) : Json(nullptr);
+    json["fog"] = as_written(o.fog);
+    json["fog_albedo"] = as_written(o.fog_albedo);
+    json["fog_anisotropy"] = as_written(o.fog_anisotropy);
+    json["aperture"] = as_written(o.aperture);
+    json["focus"] = o.focus ? Json(as_written(*o.focus)) : Json(nullptr);
+    json["filter"] = o.filter;
     json["materials"] = o.diffuse_materials ? "diffuse" : "full";
     json["isa"] = o.isa.empty() ? Json(nullptr) : Json(o.isa);
     json["reference"] = path_or_null(o.reference);

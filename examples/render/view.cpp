@@ -6,6 +6,7 @@
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+#include <glm/vec4.hpp>
 #include <lightcuts/core/invalid_input.hpp>
 #include <lightcuts/core/random.hpp>
 #include <lightcuts/core/vector.hpp>
@@ -47,8 +48,22 @@ glm::vec2 pixel_offset(std::uint64_t seed, std::uint32_t pixel, int sample, int 
     return {static_cast<float>(x - std::floor(x)), static_cast<float>(y - std::floor(y))};
 }
 
-View::View(const Camera& camera, const glm::dvec3& origin, int width, int height)
-    : width_(width), height_(height), eye_(camera.eye - origin), is_orthographic_(camera.height > 0.0) {
+LensSample lens_sample(std::uint64_t seed, std::uint32_t pixel, int sample, int spp) {
+    if (spp == 1) return {};
+    // The additive recurrence of four dimensions: that of two for each pair would tie the lens to the pixel.
+    constexpr double root = 1.1673039782614187;  // of x^5 = x + 1
+    double step = 1.0;
+    glm::vec4 p(0.0f);
+    for (int axis = 0; axis < 4; ++axis) {
+        step /= root;
+        const double x = lightcuts::uniform01(lightcuts::hash_keys(seed, pixel, axis, 1)) + step * sample;
+        p[axis] = static_cast<float>(x - std::floor(x));
+    }
+    return {{p.x, p.y}, {p.z, p.w}};
+}
+
+View::View(const Camera& camera, const glm::dvec3& origin, int width, int height, const Lens& lens)
+    : width_(width), height_(height), eye_(camera.eye - origin), is_orthographic_(camera.height > 0.0), lens_(lens) {
     const glm::dvec3 forward = glm::normalize(camera.target - camera.eye);
     const glm::dvec3 right = glm::normalize(glm::cross(forward, glm::dvec3(camera.up)));
     const glm::dvec3 up = glm::cross(right, forward);
@@ -67,6 +82,19 @@ EyeRay View::ray(float x, float y) const {
     const glm::vec3 on_plane = corner_ + x * right_ + y * down_;
     if (is_orthographic_) return {eye_ + on_plane, forward_};
     return {eye_, glm::normalize(on_plane)};
+}
+
+EyeRay View::ray(float x, float y, const glm::vec2& lens) const {
+    const EyeRay central = ray(x, y);
+    if (!has_lens()) return central;
+    // Evenly over the disk.
+    const double r = 0.5 * lens_.aperture * std::sqrt(static_cast<double>(lens.x));
+    const double angle = 6.283185307179586 * static_cast<double>(lens.y);
+    const glm::dvec3 direction(central.direction);
+    const glm::dvec3 sharp = direction * (lens_.focus / glm::dot(direction, glm::dvec3(forward_)));
+    const glm::dvec3 across = glm::normalize(glm::dvec3(right_)), down = glm::normalize(glm::dvec3(down_));
+    const glm::dvec3 shift = r * (std::cos(angle) * across + std::sin(angle) * down);
+    return {glm::vec3(glm::dvec3(central.origin) + shift), glm::vec3(glm::normalize(sharp - shift))};
 }
 
 void require_usable(const Camera& camera, const std::string& where) {

@@ -19,16 +19,33 @@ struct EyeRay {
 /// cover the pixel evenly, shifted by a hash of (seed, pixel).
 glm::vec2 pixel_offset(std::uint64_t seed, std::uint32_t pixel, int sample, int spp);
 
-/// A pinhole camera, or an orthographic one, in front of a grid of square pixels; (0, 0) is the top left corner of the
-/// picture.
+/// A point in the pixel, and one in the unit square for the lens: together they cover all four dimensions evenly.
+struct LensSample {
+    glm::vec2 offset{0.5f};
+    glm::vec2 lens{0.0f};  ///< (0, any) is its center
+};
+LensSample lens_sample(std::uint64_t seed, std::uint32_t pixel, int sample, int spp);
+
+/// A thin lens [Cook et al. 1984]: what lies in the plane at `focus`, measured along the view, is sharp.
+struct Lens {
+    double aperture = 0.0;  ///< diameter; 0: a pinhole
+    double focus = 1.0;     ///< pre: > 0
+};
+
+/// A pinhole camera, or an orthographic one, either with a lens or without, in front of a grid of square pixels; (0, 0)
+/// is the top left corner of the picture.
 class View {
 public:
     /// `origin`: of the coordinates that rays are wanted in, as Scene::origin.
     /// pre: width, height > 0; `require_usable` accepts the camera.
-    View(const Camera& camera, const glm::dvec3& origin, int width, int height);
+    View(const Camera& camera, const glm::dvec3& origin, int width, int height, const Lens& lens = {});
 
     /// The ray through (x, y), in pixels.
     EyeRay ray(float x, float y) const;
+    /// The ray through (x, y) and the point of the lens that belongs to `lens` of the unit square.
+    EyeRay ray(float x, float y, const glm::vec2& lens) const;
+
+    bool has_lens() const { return lens_.aperture > 0.0; }
 
     int width() const { return width_; }
     int height() const { return height_; }
@@ -42,6 +59,7 @@ private:
     glm::vec3 down_;    ///< one pixel down
     glm::vec3 corner_;  ///< from the eye to the top left corner; orthographic: from the middle of the picture
     bool is_orthographic_;
+    Lens lens_;
 };
 
 /// throws: invalid_input, in one line that begins with `where`, unless `camera` spans a picture: all coordinates

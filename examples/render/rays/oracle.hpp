@@ -64,7 +64,7 @@ inline glm::vec3 shadow_end(const Scene& scene, const lightcuts::VisibilityQuery
     }
 }
 
-/// Visibility through surfaces that let light pass, tinted by them.
+/// Visibility through fog and surfaces that let light pass, tinted by them.
 class TransmissiveOracle {
 public:
     TransmissiveOracle(const Scene& scene, const RayScene& rays) : scene_(scene), rays_(rays) {}
@@ -72,11 +72,13 @@ public:
     template <class R, lightcuts::Light L>
     glm::vec3 operator()(const R& receiver, const L& light) const {
         const glm::vec3 from = receiver.shadow_origin;
+        const glm::vec3 place = lightcuts::position_or_direction(light);
         if constexpr (lightcuts::DirectionalLight<L>) {
-            return rays_.to_infinity(from, lightcuts::position_or_direction(light));
+            return rays_.to_infinity(from, place) * scene_.fog.medium.transmittance_to_infinity(from, place);
         } else {
             const glm::vec3 end = shadow_end(scene_, from, light);
-            return end == from ? glm::vec3(1.0f) : rays_.to_point(from, end);
+            const glm::vec3 tint = end == from ? glm::vec3(1.0f) : rays_.to_point(from, end);
+            return tint * scene_.fog.medium.transmittance(from, place);
         }
     }
 
@@ -85,25 +87,28 @@ private:
     const RayScene& rays_;
 };
 
-/// Visibility among opaque surfaces, by streams of plain Embree rays.
+/// Visibility among opaque surfaces and through fog, by streams of plain Embree rays.
 class OpaqueOracle {
 public:
     OpaqueOracle(const Scene& scene, const RayScene& rays)
         : scene_(scene), embree_(rays.embree_scene(), 1.0f - RayScene::shadow_ray_end) {}
 
     template <class R, lightcuts::Light L>
-    bool operator()(const R& receiver, const L& light) const {
+    float operator()(const R& receiver, const L& light) const {
+        const glm::vec3 from = receiver.shadow_origin, place = lightcuts::position_or_direction(light);
         if constexpr (lightcuts::DirectionalLight<L>) {
-            return embree_(receiver, light);
+            return embree_(receiver, light) ? scene_.fog.medium.transmittance_to_infinity(from, place) : 0.0f;
         } else {
-            const glm::vec3 end = shadow_end(scene_, receiver.shadow_origin, light);
-            return end == receiver.shadow_origin || embree_(receiver, lightcuts::OmniLight<>{end, {}, {}});
+            const glm::vec3 end = shadow_end(scene_, from, light);
+            const bool visible = end == from || embree_(receiver, lightcuts::OmniLight<>{end, {}, {}});
+            return visible ? scene_.fog.medium.transmittance(from, place) : 0.0f;
         }
     }
 
     void many(std::span<const lightcuts::VisibilityQuery> queries, std::span<float> answers) const {
         embree_.many(queries, answers,
                      [this](const lightcuts::VisibilityQuery& query) { return shadow_end(scene_, query); });
+        if (scene_.fog.is_there()) lightcuts::attenuate(scene_.fog.medium, queries, answers);
     }
 
 private:

@@ -15,7 +15,7 @@ namespace {
 constexpr glm::vec3 black(0.0f);
 
 bool has_gloss(const SurfacePoint& p) {
-    return p.model != SurfacePoint::Model::lambert &&
+    return p.model != SurfacePoint::Model::lambert && p.model != SurfacePoint::Model::volume &&
            (p.specular != black || p.model == SurfacePoint::Model::microfacet);
 }
 
@@ -77,12 +77,20 @@ glm::vec3 GlossyEnvelope::upper_bound(const lightcuts::OffsetBox& offsets) const
 void GatherPoints::clear() {
     diffuse.clear();
     glossy.clear();
+    fog.clear();
+    shadow_offset = 0.0f;
 }
 
 void GatherPoints::add(const SurfacePoint& p, float share) {
     const std::uint64_t hash = lightcuts::hash_keys(p.pixel, p.sample, p.vertex);
     const auto name = static_cast<std::uint32_t>(hash);
     const glm::vec3 weight = p.weight * share;
+    shadow_offset = std::max(shadow_offset, glm::length(p.ray_origin - p.position));
+    if (p.model == SurfacePoint::Model::volume) {
+        const lightcuts::HenyeyGreenstein<> phase(p.to_viewer, glm::vec3(1.0f), p.shininess);
+        fog.push_back({{p.position, phase, p.ray_origin, name}, weight});
+        return;
+    }
     if (p.diffuse != black) {
         diffuse.push_back(
             {{p.position, {p.shading_normal, p.geometric_normal}, p.ray_origin, name}, weight * p.diffuse});

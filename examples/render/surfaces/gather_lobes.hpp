@@ -6,6 +6,7 @@
 #include <glm/vec3.hpp>
 #include <lightcuts/material/ggx.hpp>
 #include <lightcuts/material/lambert.hpp>
+#include <lightcuts/material/phase_function.hpp>
 #include <lightcuts/material/phong.hpp>
 #include <lightcuts/product/gather_point.hpp>
 
@@ -55,10 +56,14 @@ private:
 using DiffuseGatherPoint = lightcuts::GatherPoint<DiffuseLobe>;
 using GlossyGatherPoint = lightcuts::GatherPoint<GlossyLobe>;
 
+using FogGatherPoint = lightcuts::GatherPoint<lightcuts::HenyeyGreenstein<>>;
+
 /// Gather points by the type of their lobes.
 struct GatherPoints {
     std::vector<DiffuseGatherPoint> diffuse;
     std::vector<GlossyGatherPoint> glossy;
+    std::vector<FogGatherPoint> fog;
+    float shadow_offset = 0.0f;  ///< the largest distance of a shadow ray's origin from its point
 
     void clear();
     /// Adds one for each lobe of `point`, of its weight times `share`.

@@ -7,6 +7,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "surfaces/fog_points.hpp"
 #include "surfaces/surface_colors.hpp"
 #include "surfaces/surface_geometry.hpp"
 
@@ -52,9 +53,14 @@ EyeRaySeen EyePathTracer::follow(const EyeRay& ray, std::uint32_t pixel, std::ui
     std::vector<Branch> open;
     open.push_back({ray.origin, ray.direction, glm::vec3(1.0f), 0.0f, 0, 0});
     for (bool first = true; !open.empty(); first = false) {
-        const Branch at = open.back();
+        Branch at = open.back();
         open.pop_back();
         const auto hit = rays_.nearest(at.origin, at.direction);
+        if (scene_.fog.is_there()) {
+            const float length = hit ? hit->distance : std::numeric_limits<float>::infinity();
+            at.weight *= add_fog_points(
+                scene_.fog, {at.origin, at.direction, length, at.traveled, at.weight, pixel, sample}, vertex, points);
+        }
         if (!hit) {
             seen.emitted += at.weight * scene_.background.radiance(at.direction);
             continue;

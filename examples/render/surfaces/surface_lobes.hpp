@@ -19,13 +19,14 @@ enum class Shade { full, diffuse };  ///< `diffuse`: everything is Lambert with 
 struct SurfaceLobes {
     /// The reflecting lobe besides Lambert's diffuse/pi. `phong`: specular (e+2)/(2 pi) cos^e about the mirror
     /// direction. `microfacet`: height-correlated GGX with Schlick's Fresnel term from `specular` to `grazing`.
-    enum class Model : std::uint8_t { lambert, phong, microfacet };
+    /// `volume`: no surface, but a point of fog with Henyey and Greenstein's phase function.
+    enum class Model : std::uint8_t { lambert, phong, microfacet, volume };
 
     glm::vec3 diffuse{0.0f};      ///< albedo of the Lambert part
     glm::vec3 specular{0.0f};     ///< phong: Ks; microfacet: reflectance at normal incidence (F0)
     glm::vec3 transmitted{0.0f};  ///< diffuse transmittance, of light from behind to the viewer
     float grazing = 1;            ///< microfacet: reflectance at grazing incidence, at least `specular`
-    float shininess = 0;          ///< phong: exponent e; microfacet: alpha = roughness^2
+    float shininess = 0;          ///< phong: exponent e; microfacet: alpha = roughness^2; volume: mean cosine
     Model model = Model::lambert;
 
     bool is_black() const {

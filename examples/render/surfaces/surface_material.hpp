@@ -5,6 +5,7 @@
 #include <lightcuts/material/above_horizon.hpp>
 #include <lightcuts/material/ggx.hpp>
 #include <lightcuts/material/lambert.hpp>
+#include <lightcuts/material/phase_function.hpp>
 #include <lightcuts/material/phong.hpp>
 
 #include "surfaces/surface.hpp"
@@ -12,13 +13,16 @@
 namespace render {
 
 /// What a surface point does with light: Lambert's lobe and at most one glossy one above both of its normals, and
-/// Lambert's for what comes through from below both. Models the library's CompositeMaterial, so that bounds are formed
-/// of the parts, and TwoSidedMaterial.
+/// Lambert's for what comes through from below both; a point of fog, by a phase function. Models the library's
+/// CompositeMaterial, so that bounds are formed of the parts, and TwoSidedMaterial.
 class SurfaceMaterial {
 public:
     explicit SurfaceMaterial(const SurfacePoint& p)
         : geometric_normal_(p.geometric_normal), lambert_{p.shading_normal, p.diffuse}, transmitted_(p.transmitted),
           is_thin_(p.transmitted != glm::vec3(0.0f)) {
+        if (p.model == SurfacePoint::Model::volume) {
+            gloss_.emplace<lightcuts::HenyeyGreenstein<>>(p.to_viewer, glm::vec3(1.0f), p.shininess);
+        }
         if (p.specular == glm::vec3(0.0f) && p.model != SurfacePoint::Model::microfacet) return;
         if (p.model == SurfacePoint::Model::phong) {
             gloss_.emplace<lightcuts::ModifiedPhong<>>(p.shading_normal, p.to_viewer, p.specular, p.shininess);
@@ -55,6 +59,8 @@ public:
             f(AboveHorizon<const lightcuts::ModifiedPhong<>&>{*phong, geometric_normal_});
         } else if (const auto* ggx = std::get_if<lightcuts::Ggx<>>(&gloss_)) {
             f(AboveHorizon<const lightcuts::Ggx<>&>{*ggx, geometric_normal_});
+        } else if (const auto* phase = std::get_if<lightcuts::HenyeyGreenstein<>>(&gloss_)) [[unlikely]] {
+            f(*phase);
         }
         if (is_thin_) [[unlikely]] {
             f(AboveHorizon{lightcuts::Lambert{-lambert_.normal, transmitted_}, -geometric_normal_});
@@ -70,7 +76,7 @@ private:
     lightcuts::Lambert<> lambert_;
     glm::vec3 transmitted_;
     bool is_thin_;
-    std::variant<std::monostate, lightcuts::ModifiedPhong<>, lightcuts::Ggx<>> gloss_;
+    std::variant<std::monostate, lightcuts::ModifiedPhong<>, lightcuts::Ggx<>, lightcuts::HenyeyGreenstein<>> gloss_;
 };
 
 }  // namespace render

@@ -105,6 +105,16 @@ private:
     Box where_{};
 };
 
+/// Multiplies answers to shadow rays, floats or spectra, by the transmittance along each.
+template <Medium M, class A>
+void attenuate(const M& medium, std::span<const VisibilityQuery> queries, std::span<A> answers) {
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+        const VisibilityQuery& q = queries[i];
+        answers[i] = answers[i] *
+                     (q.distant ? medium.transmittance_to_infinity(q.from, q.to) : medium.transmittance(q.from, q.to));
+    }
+}
+
 namespace detail {
 
 /// `many` through a medium, for oracles that have it: a type of its own, as a name that exists but cannot be called is
@@ -120,11 +130,7 @@ public:
     {
         const Self& self = static_cast<const Self&>(*this);
         self.oracle_.many(queries, answers);
-        for (std::size_t i = 0; i < queries.size(); ++i) {
-            const VisibilityQuery& q = queries[i];
-            answers[i] = answers[i] * (q.distant ? self.medium_.transmittance_to_infinity(q.from, q.to)
-                                                 : self.medium_.transmittance(q.from, q.to));
-        }
+        attenuate(self.medium_, queries, answers);
     }
 };
 template <class Oracle>
