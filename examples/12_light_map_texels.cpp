@@ -55,7 +55,7 @@ int main() {
     lightcuts::GatherForest<Point> points_of_texel;        // rebuilt for each texel
     lightcuts::gather_scratch_of<decltype(tree)> scratch;  // reused, too
     lightcuts::ProductOptions options;
-    options.cut.error_ratio = 0.01f;  // of the total, at most, by which a pair of clusters may be off
+    options.cut.error_ratio = 0.005f;  // of the total, at most, by which a pair of clusters may be off
     double difference = 0.0, total = 0.0, queries = 0.0;
     for (int y = 0; y < texels; ++y) {
         for (int x = 0; x < texels; ++x) {
