@@ -28,6 +28,7 @@ public:
                            const Forest& forest, const Options& options)
         : scene_(scene), rays_(rays), lights_(std::move(lights)), forest_(forest),
           clamps_(options.clamp.is_automatic()) {
+        product_.separate_points = options.method == "unified-cut";
         product_.cut.error_ratio = options.error_ratio;
         if (options.is_given("--max-cut")) product_.cut.max_cut = options.max_cut;
         product_.cut.seed = options.seed;

@@ -10,7 +10,8 @@
 namespace render {
 
 /// The shader that sums up all lobes of a pixel by one cut through the pairs of gather points and lights
-/// [Multidimensional Lightcuts 2006]. Both references are kept.
+/// [Multidimensional Lightcuts 2006], or, for the method `unified-cut`, of single gather points and clusters of lights.
+/// Both references are kept.
 std::unique_ptr<Shader> make_multidimensional_shader(const Scene& scene, const RayScene& rays, const Options& options);
 
 }  // namespace render

@@ -22,8 +22,9 @@ namespace {
 constexpr int largest_side = 1 << 16;
 constexpr long long largest_picture = 1ll << 27;  ///< pixels
 
-const std::vector<std::string> methods = {"exhaustive", "lightcuts",     "multidimensional",   "ward",
-                                          "power",      "tree-sampling", "adaptive-splitting", "stochastic-lightcuts"};
+const std::vector<std::string> methods = {
+    "exhaustive", "lightcuts",     "multidimensional",   "unified-cut",         "ward",
+    "power",      "tree-sampling", "adaptive-splitting", "stochastic-lightcuts"};
 const std::vector<std::string> later_methods = {"reconstruction", "row-column"};
 const std::vector<std::string> later_options = {"--instants", "--shutter"};
 const std::vector<std::string> builders = {"binned", "agglomerate", "longest-axis"};

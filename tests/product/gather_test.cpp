@@ -146,7 +146,7 @@ TEST(Gather, EstimateOfAFixedCutIsUnbiasedOverSeeds) {
             expect_mean(truth, [&](std::uint64_t seed) {
                 const LightTree tree(scene.lights, {.representatives = several, .seed = hash_keys(9, seed)});
                 return gather(tree, scene.points, oracle, fixed_cut(seed, redraw),
-                              {.representatives = several, .seed = hash_keys(8, seed)})
+                              {.seed = hash_keys(8, seed)})
                     .radiance;
             });
         }

@@ -16,7 +16,6 @@
 #include "../tree/build/divide.hpp"
 #include "../tree/build/longest_axis.hpp"
 #include "../tree/light_cluster.hpp"
-#include "../tree/representatives.hpp"
 #include "envelope.hpp"
 #include "gather_point.hpp"
 #include "time_vectors.hpp"
@@ -35,10 +34,7 @@ struct GatherTreeOptions {
     /// The diagonal of the scene in world units: an eighth of it is what a unit of direction counts for where positions
     /// and directions are compared [Multidimensional Lightcuts 2006, section 3.4]. 0: that of the gather points' box.
     double scene_diagonal = 0.0;
-    /// Most gather points that may represent a cluster, 1 to 32, where there is one instant. Each pair of clusters
-    /// draws one. With 1 all pairs of a cluster share a point, and are wrong together where it alone is in shadow.
-    unsigned representatives = 32;
-    /// Representatives are chosen by a hash of it.
+    /// Of the choice of a cluster's representative at each instant, where there are several.
     std::uint64_t seed = 1;
     /// Instants of the lights; 1: whatever instants gather points have do not matter to lights.
     std::uint32_t instants = 1;
@@ -141,7 +137,6 @@ public:
                 return;
             }
         }
-        representatives_.choose(topology_, weights_, options.representatives, hash_keys(options.seed, 2));
     }
 
     /// True if no point has any strength.
@@ -150,8 +145,8 @@ public:
     std::span<const Cluster> clusters() const { return clusters_; }
     /// The gather point of a leaf.
     const G& point(node_index leaf) const { return points_[topology_.item(leaf)]; }
-    /// Which points may represent a cluster, where there is one instant.
-    const Representatives& representatives() const { return representatives_; }
+    /// The sum over the channels of a node's strength.
+    double weight(node_index n) const { return weights_[n]; }
     /// Strengths and representatives by instant, where there are several.
     const TimeVectors<spectrum>& times() const requires TimedGatherPoint<G> { return times_; }
     bool is_timed() const { return is_timed_; }
@@ -244,7 +239,6 @@ private:
     ClusterTree topology_;
     std::vector<Cluster> clusters_;
     std::vector<double> weights_;
-    Representatives representatives_;
     [[no_unique_address]] Times times_{};
     bool is_timed_ = false;
     NormalizedSpace space_{};

@@ -295,13 +295,7 @@ private:
                 return;
             }
         }
-        if (points.topology().is_leaf(n.gather)) {
-            n.gather_representative = n.gather;
-        } else if (points.is_timed()) {
-            n.gather_representative = draw_of_timed(points, n.gather, seed);
-        } else {
-            n.gather_representative = points.representatives().draw(n.gather, hash_keys(seed, 0));
-        }
+        n.gather_representative = draw_gather_point(points, n.gather, hash_keys(seed, 0));
         n.light_representative = lights.topology().is_leaf(n.light)
                                      ? n.light
                                      : lights.representatives().draw(n.light, hash_keys(seed, 1));
@@ -326,12 +320,18 @@ private:
                 return;
             }
         }
-        n.gather_representative = draw_leaf(gather_tree, n.gather, hash_keys(seed, 0), [&](auto node_index) {
-            return channel_sum(points.clusters()[node_index].strength);
-        });
+        n.gather_representative = draw_gather_point(points, n.gather, hash_keys(seed, 0));
         n.light_representative = draw_leaf(light_tree, n.light, hash_keys(seed, 1), [&](auto node_index) {
             return channel_sum(lights.clusters()[node_index].intensity);
         });
+    }
+
+    /// One of the gather points below a node, by strength. A pair draws one of its own among all: those of one cluster
+    /// would all be wrong together where one point stood for all of them and it alone were in shadow.
+    template <class GatherTree>
+    static ClusterTree::node_index draw_gather_point(const GatherTree& points, ClusterTree::node_index n,
+                                                     std::uint64_t seed) {
+        return draw_leaf(points.topology(), n, seed, [&](auto node_index) { return points.weight(node_index); });
     }
 
     /// A leaf below `n`, each with a probability proportional to its weight.
@@ -372,26 +372,6 @@ private:
                                             found = found || before > wanted;
                                         });
         return drawn;
-    }
-
-    /// One of the gather points below a node, where the lights are the same at every instant.
-    template <class GatherTree>
-    static ClusterTree::node_index draw_of_timed(const GatherTree& points, ClusterTree::node_index gather,
-                                                 std::uint64_t seed) {
-        if constexpr (TimedGatherPoint<typename GatherTree::point_type>) {
-            const auto& times = points.times();
-            const double wanted = uniform01(seed) * channel_sum(points.clusters()[gather].strength);
-            double before = 0.0;
-            std::uint32_t drawn = 0;
-            for (const std::uint16_t instant : times.instants_of(gather)) {
-                drawn = instant;
-                before += channel_sum(times.at(gather, instant));
-                if (before > wanted) break;
-            }
-            return times.representative(gather, drawn);
-        } else {
-            return gather;
-        }
     }
 
     /// The transfer of a node's representatives, shadows apart.

@@ -1,0 +1,256 @@
+/// What a pixel of many eye rays costs: multidimensional lightcuts beside an independent lightcut for each gather
+/// point, the unified cut, sampling, and eye rays alone, over numbers of eye rays [Multidimensional Lightcuts 2006,
+/// Fig. 4 and 7]. Processor time of one thread, medians of runs by turns.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+#include <lightcuts/product/gather_forest.hpp>
+
+#include "figures.hpp"
+#include "pixel_filter.hpp"
+#include "prepare_scene.hpp"
+#include "prepared_scene.hpp"
+#include "rays/ray_scene.hpp"
+#include "scene_options.hpp"
+#include "shader.hpp"
+#include "surfaces/gather_lobes.hpp"
+#include "timing.hpp"
+#include "view.hpp"
+
+namespace {
+
+using namespace benchmark;
+
+struct Arguments {
+    std::vector<std::string> scenes{"builtin:hall"};
+    std::vector<int> eye_rays{1, 4, 16, 64, 256};
+    int width = 640;
+    int height = 480;
+    int pixels = 192;  ///< that are shaded, about, spread evenly over the picture
+    int runs = 3;
+    float aperture = 0.0f;
+    float focus = 0.0f;  ///< 0: the target's distance
+    float fog = 0.0f;
+    float error_ratio = 0.02f;
+    int reference_rays = 0;  ///< errors are told up to so many eye rays
+};
+
+/// A method, and what it has cost.
+struct Method {
+    const char* name;
+    const char* method;
+    std::uint32_t samples;
+    std::unique_ptr<render::Shader> shader{};
+    std::unique_ptr<render::Shader::Scratch> scratch{};
+    std::vector<double> seconds{};
+    std::vector<glm::dvec3> pixels{};
+    double cut = 0;
+    double rays = 0;
+};
+
+class Contest {
+public:
+    Contest(const std::string& name, const Arguments& arguments)
+        : arguments_(arguments), options_(scene_options(name)), scene_(make_scene(name)), rays_(scene_),
+          tracer_(scene_, rays_, render::shade_of(options_)),
+          view_(scene_.cameras.front(), scene_.origin, arguments.width, arguments.height, lens()) {}
+
+    const render::Scene& scene() const { return scene_; }
+
+    void print(int eye_rays) {
+        options_.spp = eye_rays;
+        find_points(eye_rays);
+        std::vector<Method> methods;
+        methods.push_back({"multidimensional", "multidimensional", 0});
+        methods.push_back({"unified cut", "unified-cut", 0});
+        methods.push_back({"lightcut a point", "lightcuts", 0});
+        for (const std::uint32_t samples : {1u, 4u}) {
+            methods.push_back(
+                {samples == 1 ? "stochastic, 1 a point" : "stochastic, 4 a point", "stochastic-lightcuts", samples});
+        }
+        const bool with_errors = eye_rays <= arguments_.reference_rays;
+        if (with_errors) methods.push_back({"exhaustive", "exhaustive", 0});
+        for (Method& m : methods) prepare(m);
+        for (int run = 0; run < arguments_.runs; ++run) {
+            for (Method& m : methods) {
+                if (std::string(m.method) == "exhaustive" && run > 0) continue;
+                m.seconds.push_back(seconds([&] { shade(m, eye_rays); }));
+            }
+        }
+        const double count = static_cast<double>(first_.size() - 1);
+        std::printf(
+            "%4d eye rays a pixel: %.1f gather points, %.3g pairs; eye rays %.3f ms, gather points and trees %.3f ms\n",
+            eye_rays, lobes_ / count, lobes_ / count * static_cast<double>(scene_.light_count()),
+            1e3 * eye_seconds_ / count, 1e3 * tree_seconds() / count);
+        for (Method& m : methods) {
+            std::printf("     %-22s %9.3f ms a pixel %9.1f shadow rays %9.1f clusters", m.name,
+                        1e3 * middle(m.seconds) / count, m.rays / count, m.cut / count);
+            if (with_errors) std::printf("  relative RMSE %6.2f %%", 100.0 * error(m, methods.back()));
+            std::printf("\n");
+        }
+        std::fflush(stdout);
+    }
+
+private:
+    render::Scene make_scene(const std::string& name) {
+        options_.fog = arguments_.fog;
+        options_.error_ratio = arguments_.error_ratio;
+        options_.clamp = {};
+        options_.given = {"--max-cut"};
+        options_.max_cut = 2000;
+        return lit_scene(name, options_);
+    }
+    render::Lens lens() const {
+        const render::Camera& camera = scene_.cameras.front();
+        const double focus = arguments_.focus > 0.0f ? static_cast<double>(arguments_.focus)
+                                                     : glm::length(camera.target - camera.eye);
+        return {static_cast<double>(arguments_.aperture), focus};
+    }
+
+    void find_points(int eye_rays) {
+        points_.clear();
+        first_.assign(1, 0);
+        eye_seconds_ = seconds([&] {
+            const double area = static_cast<double>(view_.width()) * view_.height();
+            const int stride = std::max(1, static_cast<int>(std::lround(std::sqrt(area / arguments_.pixels))));
+            for (int y = stride / 2; y < view_.height(); y += stride) {
+                for (int x = stride / 2; x < view_.width(); x += stride) {
+                    const auto pixel = static_cast<std::uint32_t>(y * view_.width() + x);
+                    for (int sample = 0; sample < eye_rays; ++sample) {
+                        const render::LensSample at = render::lens_sample(1, pixel, sample, eye_rays);
+                        const auto ray = view_.ray(static_cast<float>(x) + at.offset.x,
+                                                   static_cast<float>(y) + at.offset.y, at.lens);
+                        tracer_.follow(ray, pixel, static_cast<std::uint32_t>(sample), points_);
+                    }
+                    first_.push_back(points_.size());
+                }
+            }
+        });
+    }
+
+    std::span<const render::SurfacePoint> points_of(std::size_t pixel) const {
+        return std::span(points_).subspan(first_[pixel], first_[pixel + 1] - first_[pixel]);
+    }
+
+    /// Of gather points and of their trees alone; counts the gather points, too.
+    double tree_seconds() {
+        render::GatherPoints lobes;
+        lightcuts::GatherForest<render::DiffuseGatherPoint, render::GlossyGatherPoint, render::FogGatherPoint> trees;
+        std::vector<double> times;
+        for (int run = 0; run < arguments_.runs; ++run) {
+            lobes_ = 0;
+            times.push_back(seconds([&] {
+                for (std::size_t pixel = 0; pixel + 1 < first_.size(); ++pixel) {
+                    lobes.clear();
+                    for (const render::SurfacePoint& p : points_of(pixel)) lobes.add(p, 1.0f);
+                    trees.build(lobes.diffuse, lobes.glossy, lobes.fog, {});
+                    lobes_ += static_cast<double>(lobes.diffuse.size() + lobes.glossy.size() + lobes.fog.size());
+                }
+            }));
+        }
+        return middle(times);
+    }
+
+    void prepare(Method& m) const {
+        render::Options options = options_;
+        options.method = m.method;
+        if (m.samples > 0) options.samples = m.samples;
+        m.shader = render::make_shader(scene_, rays_, options);
+        m.scratch = m.shader->make_scratch();
+    }
+
+    void shade(Method& m, int eye_rays) const {
+        m.pixels.clear();
+        m.cut = m.rays = 0;
+        std::vector<render::Shading> shadings;
+        for (std::size_t pixel = 0; pixel + 1 < first_.size(); ++pixel) {
+            const auto points = points_of(pixel);
+            glm::dvec3 sum(0.0);
+            const auto count = [&](const render::Shading& s) {
+                m.cut += static_cast<double>(s.cut_size);
+                m.rays += static_cast<double>(s.shadow_rays);
+            };
+            if (m.shader->shades_pixels()) {
+                const render::Shading s = m.shader->shade_pixel(points, 1.0f / static_cast<float>(eye_rays),
+                                                                *m.scratch);
+                sum = glm::dvec3(s.radiance);
+                count(s);
+            } else {
+                shadings.assign(points.size(), {});
+                m.shader->shade(points, shadings, *m.scratch);
+                for (std::size_t i = 0; i < points.size(); ++i) {
+                    sum += glm::dvec3(points[i].weight) * glm::dvec3(shadings[i].radiance) / double(eye_rays);
+                    count(shadings[i]);
+                }
+            }
+            m.pixels.push_back(sum);
+        }
+    }
+
+    static double middle(std::vector<double> values) {
+        std::sort(values.begin(), values.end());
+        return values[values.size() / 2];
+    }
+
+    static double error(const Method& m, const Method& reference) {
+        double difference = 0, whole = 0;
+        for (std::size_t i = 0; i < m.pixels.size(); ++i) {
+            const glm::dvec3 d = m.pixels[i] - reference.pixels[i];
+            difference += glm::dot(d, d);
+            whole += glm::dot(reference.pixels[i], reference.pixels[i]);
+        }
+        return std::sqrt(difference / whole);
+    }
+
+    const Arguments& arguments_;
+    render::Options options_;
+    render::Scene scene_;
+    render::RayScene rays_;
+    render::EyePathTracer tracer_;
+    render::View view_;
+    std::vector<render::SurfacePoint> points_;
+    std::vector<std::size_t> first_;  ///< of each pixel in `points_`; one more at the end
+    double eye_seconds_ = 0;
+    double lobes_ = 0;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    Arguments arguments;
+    CLI::App app{"Cost of pixels of many eye rays"};
+    app.add_option("--scene", arguments.scenes, "as of bench-error_vs_time; repeatable (builtin:hall)");
+    app.add_option("--eye-rays", arguments.eye_rays, "a pixel (1 4 16 64 256)");
+    app.add_option("--width", arguments.width, "of the picture, pixels (640)")->check(CLI::Range(1, 4096));
+    app.add_option("--height", arguments.height, "of the picture, pixels (480)")->check(CLI::Range(1, 4096));
+    app.add_option("--pixels", arguments.pixels, "of it that are shaded, about (192)")->check(CLI::Range(1, 1 << 20));
+    app.add_option("--runs", arguments.runs, "medians are over this odd number (3)")->check(odd_number());
+    app.add_option("--aperture", arguments.aperture, "as of lightcuts-render (0)");
+    app.add_option("--focus", arguments.focus, "as of lightcuts-render");
+    app.add_option("--fog", arguments.fog, "as of lightcuts-render (0)");
+    app.add_option("--error-ratio", arguments.error_ratio, "as of lightcuts-render (0.02)");
+    app.add_option("--errors-up-to", arguments.reference_rays,
+                   "eye rays for which errors are told, which takes long (0)");
+    CLI11_PARSE(app, argc, argv);
+    try {
+        for (const std::string& name : arguments.scenes) {
+            Contest contest(name, arguments);
+            std::printf("%s: %zu triangles, %zu lights\n", name.c_str(), contest.scene().triangles.size(),
+                        contest.scene().light_count());
+            for (const int eye_rays : arguments.eye_rays) contest.print(eye_rays);
+        }
+        return 0;
+    } catch (const std::exception& e) {
+        std::fprintf(stderr, "bench-multidimensional: %s\n", e.what());
+        return 1;
+    }
+}
