@@ -101,7 +101,10 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Shader> make_multidimensional_shader(const Scene& scene, const RayScene& rays, const Options& options) {
+std::unique_ptr<Shader> make_multidimensional_shader(const Scene& scene, const RayScene& rays, const Options& given) {
+    Options options = given;
+    // Pairs of one light cluster draw different lights, where one for all would be wrong together.
+    if (!given.is_given("--representatives")) options.representatives = 32;
     auto lights = std::make_unique<const SceneLights>(scene, options);
     const SceneLights& trees = *lights;
     return trees.visit([&]<class F>(const F& forest) -> std::unique_ptr<Shader> {

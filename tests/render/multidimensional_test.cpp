@@ -1,0 +1,101 @@
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <glm/geometric.hpp>
+#include <nlohmann/json.hpp>
+#include <render/io/picture.hpp>
+
+#include "programs.hpp"
+
+namespace {
+
+using Json = nlohmann::json;
+using render::Picture;
+
+/// The mean of a channel.
+double mean_of(const Picture& picture, int channel = 0) {
+    double sum = 0.0;
+    for (const glm::vec3& p : picture.pixels) sum += static_cast<double>(p[channel]);
+    return sum / static_cast<double>(picture.pixels.size());
+}
+
+TEST_F(Programs, MultidimensionalPicturesAgreeWithTheSumOverAllPairs) {
+    const std::string scene = "room.obj --area-points 300 --size 40x30 --spp 9 --quiet" + view;
+    for (const std::string effect :
+         {"", " --aperture 0.4", " --fog 0.15 --fog-anisotropy 0.5", " --aperture 0.4 --fog 0.15 --filter gaussian"}) {
+        ASSERT_EQ(render(scene + effect + " --method exhaustive -o exact.exr").status, 0);
+        for (const std::string method : {"multidimensional", "unified-cut"}) {
+            ASSERT_EQ(render(scene + effect + " --reference exact.exr --method " + method).status, 0);
+            const Json json = report("render.json");
+            EXPECT_LT(json.at("error").at("relative_rmse"), 0.025) << method << effect;
+            EXPECT_GT(json.at("error").at("relative_rmse"), 0.0) << method << effect;
+            EXPECT_EQ(json.at("method"), method);
+        }
+    }
+}
+
+TEST_F(Programs, MultidimensionalErrorsAreWithinTheirBounds) {
+    const std::string scene = "room.obj --area-points 300 --size 24x18 --spp 4 --quiet --error-ratio 0.1" + view;
+    ASSERT_EQ(render(scene + " --method exhaustive -o exact.exr").status, 0);
+    ASSERT_EQ(render(scene + " --method multidimensional --max-cut 0 --aov error_bound").status, 0);
+    const Picture exact = render::read_exr(folder / "exact.exr"), found = render::read_exr(folder / "render.exr");
+    const std::string channels = "RGB";
+    for (std::size_t i = 0; i < exact.pixels.size(); ++i) {
+        for (int c = 0; c < 3; ++c) {
+            const float bound = found.find("error_bound." + channels.substr(static_cast<std::size_t>(c), 1))->values[i];
+            EXPECT_LE(std::abs(found.pixels[i][c] - exact.pixels[i][c]), bound + 1e-4f * exact.pixels[i][c]) << i;
+        }
+    }
+}
+
+TEST_F(Programs, MultidimensionalPicturesDoNotDependOnThreads) {
+    const std::string scene =
+        "room.obj --area-points 300 --size 40x30 --spp 5 --fog 0.1 --aperture 0.1 --quiet "
+        "--method multidimensional" +
+        view;
+    ASSERT_EQ(render(scene + " --threads 1 -o one.exr").status, 0);
+    ASSERT_EQ(render(scene + " --threads 4 -o four.exr").status, 0);
+    EXPECT_EQ(render::read_exr(folder / "one.exr").pixels, render::read_exr(folder / "four.exr").pixels);
+}
+
+TEST_F(Programs, AnApertureOfZeroAndNoFogAreTheSamePicture) {
+    for (const std::string method : {"lightcuts", "multidimensional"}) {
+        const std::string scene = "room.obj --size 24x18 --spp 3 --quiet --method " + method + view;
+        ASSERT_EQ(render(scene + " -o plain.exr").status, 0);
+        ASSERT_EQ(render(scene + " --aperture 0 --fog 0 --fog-albedo 0.2 --filter box").status, 0);
+        EXPECT_EQ(render::read_exr(folder / "plain.exr").pixels, render::read_exr(folder / "render.exr").pixels);
+    }
+}
+
+TEST_F(Programs, FogAttenuatesWhatIsSeenAndScattersWhatItIsLitBy) {
+    // Straight down on a place of the floor 2.9 below, to which the light comes from about 4 away.
+    const std::string above = " --eye 2,2.9,2 --target 2,0,2 --up 0,0,-1 --fov 1 --size 1x1 --spp 64 --quiet ";
+    ASSERT_EQ(render("room.obj --lights one.csv --method exhaustive --area-points 0 -o clear.exr" + above).status, 0);
+    ASSERT_EQ(
+        render("room.obj --lights one.csv --method exhaustive --area-points 0 --fog 0.2 --fog-albedo 0 -o dim.exr" +
+               above)
+            .status,
+        0);
+    const double clear = mean_of(render::read_exr(folder / "clear.exr"));
+    const double dim = mean_of(render::read_exr(folder / "dim.exr"));
+    const double light_way = glm::distance(glm::dvec3(0.5, 2.0, -0.25), glm::dvec3(2.0, 0.0, 2.0));
+    EXPECT_NEAR(dim / (clear * std::exp(-0.2 * (2.9 + light_way))), 1.0, 0.01);
+    ASSERT_EQ(
+        render("room.obj --lights one.csv --method exhaustive --area-points 0 --fog 0.2 --fog-albedo 1 -o lit.exr" +
+               above)
+            .status,
+        0);
+    EXPECT_GT(mean_of(render::read_exr(folder / "lit.exr")), dim);
+}
+
+TEST_F(Programs, RefuseWhatALensCannotBe) {
+    EXPECT_EQ(render("room.obj --focus 3" + view).status, 2);
+    EXPECT_EQ(render("room.obj --aperture -1" + view).status, 2);
+    EXPECT_EQ(render("room.obj --fog-albedo 1.5" + view).status, 2);
+    EXPECT_EQ(render("room.obj --fog-anisotropy 1" + view).status, 2);
+    EXPECT_EQ(render("room.obj --filter sharp" + view).status, 2);
+}
+
+}  // namespace
