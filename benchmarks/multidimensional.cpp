@@ -151,7 +151,7 @@ private:
             times.push_back(seconds([&] {
                 for (std::size_t pixel = 0; pixel + 1 < first_.size(); ++pixel) {
                     lobes.clear();
-                    for (const render::SurfacePoint& p : points_of(pixel)) lobes.add(p, 1.0f);
+                    for (const render::SurfacePoint& p : points_of(pixel)) lobes.add(p, 1.0f, 0);
                     trees.build(lobes.diffuse, lobes.glossy, lobes.fog, {});
                     lobes_ += static_cast<double>(lobes.diffuse.size() + lobes.glossy.size() + lobes.fog.size());
                 }

@@ -9,6 +9,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include "luminance.hpp"
+#include "shutter.hpp"
 
 namespace render {
 
@@ -30,7 +31,7 @@ double geometric_mean(std::span<const double> luminances) {
     return std::exp(logarithms / count);
 }
 
-float measure_adaptation(const View& view, const EyePathTracer& surfaces, const Shader& shader) {
+float measure_adaptation(const MovingView& view, const EyePathTracer& surfaces, const Shader& shader) {
     const int columns = std::min(largest_grid, view.width());
     const int rows = std::min(largest_grid, view.height());
     std::vector<std::vector<double>> by_row(static_cast<std::size_t>(rows));
@@ -39,8 +40,12 @@ float measure_adaptation(const View& view, const EyePathTracer& surfaces, const 
         for (int column = 0; column < columns; ++column) {
             const float x = (static_cast<float>(column) + 0.5f) / static_cast<float>(columns);
             const float y = (static_cast<float>(row) + 0.5f) / static_cast<float>(rows);
-            const EyeRay ray = view.ray(x * static_cast<float>(view.width()), y * static_cast<float>(view.height()));
-            surfaces.follow(ray, static_cast<std::uint32_t>(row * columns + column), 0, points);
+            const auto pixel = static_cast<std::uint32_t>(row * columns + column);
+            const std::uint32_t instant = instant_of_ray(0, pixel, 0, 1, view.instants());
+            EyeRay ray = view.at(instant).ray(x * static_cast<float>(view.width()),
+                                              y * static_cast<float>(view.height()));
+            ray.instant = instant;
+            surfaces.follow(ray, pixel, 0, points);
         }
         std::vector<Shading> shadings(points.size());
         const auto scratch = shader.make_scratch();

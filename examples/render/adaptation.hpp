@@ -2,9 +2,9 @@
 
 #include <span>
 
+#include "moving_view.hpp"
 #include "shader.hpp"
 #include "surfaces/surface.hpp"
-#include "view.hpp"
 
 namespace render {
 
@@ -15,6 +15,6 @@ double geometric_mean(std::span<const double> luminances);
 /// What an eye adapts to [Walter et al. 2006, section 3.5]: the geometric mean over a coarse grid of pixels, at most 32
 /// x 32, of the luminance of the light that surfaces reflect. Emitters and background do not count, and pixels that see
 /// nothing else are left out.
-float measure_adaptation(const View& view, const EyePathTracer& surfaces, const Shader& shader);
+float measure_adaptation(const MovingView& view, const EyePathTracer& surfaces, const Shader& shader);
 
 }  // namespace render

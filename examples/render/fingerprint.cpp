@@ -42,6 +42,10 @@ void add_options(Fingerprint& print, const Options& o) {
     add("--size", text_of(o.width) + "x" + text_of(o.height));
     add("--spp", o.spp);
     add("--seed", o.seed);
+    add("--time", o.shutter.opens);
+    add("--shutter", o.shutter.seconds);
+    add("--instants", o.shutter.instants);
+    add("--shutter-shape", name_of(o.shutter.shape));
     add("--method", o.method);
     add("--error-ratio", o.error_ratio);
     add("--max-cut", o.max_cut);
@@ -105,6 +109,11 @@ void add_to(ContentHash& hash, const Texture& texture) {
     hash.add(width).add(height).add(texels).add(wrap_u).add(wrap_v).add(filter);
 }
 
+void add_to(ContentHash& hash, const MovingVertices& part) {
+    const auto& [first, count, steps, positions, normals, tangents] = part;
+    hash.add(first).add(count).add(steps).add(positions).add(normals).add(tangents);
+}
+
 void add_to(ContentHash& hash, const Environment& environment) {
     const auto& [picture, scale, rotation] = environment;
     hash.add(picture.width).add(picture.height).add(picture.pixels).add(scale).add(rotation);
@@ -123,15 +132,20 @@ void add_scene(Fingerprint& print, const Scene& scene) {
     // Left out: names, counts and messages, and `lighting`, from which the lights and the background were made.
     const auto& [name, origin, positions, normals, tangents, colors, uv_sets, triangles, triangle_material, materials,
                  textures, cameras, omni, oriented, spots, directional, spheres, sphere_points, virtual_lights,
-                 environment_lights, sun_lights, sky_lights, ground_lights, lighting, background, fog,
-                 dropped_triangles, dropped_lights, left_out, files] = scene;
+                 environment_lights, sun_lights, sky_lights, ground_lights, moving, rigid_motions, at_instants,
+                 instants, lighting, background, fog, dropped_triangles, dropped_lights, left_out, files] = scene;
     ContentHash surfaces, matter, lights, around;
     surfaces.add(origin).add(positions).add(normals).add(tangents).add(colors).add(uv_sets.size());
     for (const std::vector<glm::vec2>& uvs : uv_sets) surfaces.add(uvs);
     surfaces.add(triangles).add(triangle_material);
+    for (const MovingVertices& part : moving) add_to(surfaces, part);
     for (const Material& material : materials) add_to(matter, material);
     for (const Texture& texture : textures) add_to(matter, texture);
     lights.add(omni).add(oriented).add(spots).add(directional).add(spheres).add(sphere_points).add(virtual_lights);
+    const auto& [moving_omni, moving_oriented, moving_spots, moving_directional, moving_spheres, moving_sphere_points,
+                 moving_virtual_lights] = at_instants;
+    lights.add(moving_omni).add(moving_oriented).add(moving_spots).add(moving_directional).add(moving_spheres);
+    lights.add(moving_sphere_points).add(moving_virtual_lights);
     add_to(around, background);
     print.add("the scene's triangles", text_of(surfaces));
     print.add("the scene's materials", text_of(matter));
@@ -140,8 +154,11 @@ void add_scene(Fingerprint& print, const Scene& scene) {
 }
 
 void add_camera(Fingerprint& print, const Camera& camera) {
-    const auto& [name, eye, target, up, vertical_fov, height, other_name] = camera;
-    print.add("the camera", text_of(ContentHash().add(eye).add(target).add(up).add(vertical_fov).add(height)));
+    const auto& [name, eye, target, up, vertical_fov, height, other_name, at_instants] = camera;
+    ContentHash hash;
+    hash.add(eye).add(target).add(up).add(vertical_fov).add(height);
+    for (const CameraPose& pose : at_instants) hash.add(pose.eye).add(pose.target).add(pose.up);
+    print.add("the camera", text_of(hash));
 }
 
 /// Version and kinds of instructions: rays may differ by a rounding between them.

@@ -22,6 +22,7 @@
 #include "io/validate.hpp"
 #include "lights/indirect.hpp"
 #include "memory.hpp"
+#include "moving_view.hpp"
 #include "options.hpp"
 #include "prepare_scene.hpp"
 #include "program.hpp"
@@ -97,7 +98,9 @@ Camera choose_camera(const Scene& scene, const Options& options) {
         throw usage_error("--fov: the camera '" + camera.name + "' is orthographic, it has no field of view");
     }
     if (options.fov) camera.vertical_fov = *options.fov;
-    require_usable(camera, options.eye ? "--eye, --target" : scene.name + ": camera '" + camera.name + "'");
+    const std::string where = options.eye ? "--eye, --target" : scene.name + ": camera '" + camera.name + "'";
+    require_usable(camera, where);
+    for (const CameraPose& pose : camera.at_instants) require_usable(posed(camera, pose), where);
     return camera;
 }
 
@@ -137,7 +140,8 @@ void say_what_is_left_out(const Scene& scene, const Options& options) {
 
 /// Of an error that is that of clamping rather than of the method.
 void warn_of_clamped_reference(const Scene& scene, const Options& options) {
-    if (options.quiet || options.reference.empty() || scene.virtual_lights.empty() || !options.is_clamp_idle()) return;
+    const bool has_virtual_lights = !scene.virtual_lights.empty() || !scene.at_instants.virtual_lights.empty();
+    if (options.quiet || options.reference.empty() || !has_virtual_lights || !options.is_clamp_idle()) return;
     std::fprintf(stderr,
                  "lightcuts-render: warning: --method %s does not clamp virtual lights; compare it with a --reference "
                  "of --clamp off\n",
@@ -203,8 +207,8 @@ ExitStatus render_scene(Options options) {
         report.seconds.tree = watch.lap();
         const double focus = options.focus ? static_cast<double>(*options.focus)
                                            : glm::length(camera.target - camera.eye);
-        const View view(camera, scene.origin, options.width, options.height,
-                        {.aperture = static_cast<double>(options.aperture), .focus = focus});
+        const MovingView view(camera, scene, options.width, options.height,
+                              {.aperture = static_cast<double>(options.aperture), .focus = focus});
         const EyePathTracer surfaces(scene, rays, shade);
         report.adaptation = options.adaptation ? *options.adaptation : measure_adaptation(view, surfaces, *shader);
         shader->adapt(report.adaptation);

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <limits>
 #include <span>
+#include <type_traits>
 #include <utility>
 
 #include <lightcuts/bound/attenuated.hpp>
@@ -21,14 +23,20 @@ namespace {
 /// A virtual light adds at most this share of what the eye is adapted to [Multidimensional Lightcuts 2006, Eq. 14].
 constexpr float largest_share = 1.0f / 200.0f;
 
-template <class Forest>
+/// `Forest`: of `Lights`, SceneLights or InstantSceneLights.
+template <class Lights, class Forest>
 class MultidimensionalShader final : public Shader {
 public:
-    MultidimensionalShader(const Scene& scene, const RayScene& rays, std::unique_ptr<const SceneLights> lights,
+    MultidimensionalShader(const Scene& scene, const RayScene& rays, std::unique_ptr<const Lights> lights,
                            const Forest& forest, const Options& options)
         : scene_(scene), rays_(rays), lights_(std::move(lights)), forest_(forest),
           clamps_(options.clamp.is_automatic()) {
         product_.separate_points = options.method == "unified-cut";
+        // A light of one instant is as many times as strong as there are instants, but lights few of a pixel's rays.
+        if (!scene.at_instants.virtual_lights.empty()) {
+            rays_apart_ = static_cast<float>(
+                std::min<std::size_t>(scene.instants.size(), static_cast<std::size_t>(options.spp)));
+        }
         product_.cut.error_ratio = options.error_ratio;
         if (options.is_given("--max-cut")) product_.cut.max_cut = options.max_cut;
         product_.cut.seed = options.seed;
@@ -36,6 +44,7 @@ public:
         for (const glm::vec3& p : scene.positions) box = lightcuts::merge(box, lightcuts::box_of(p));
         tree_.scene_diagonal = std::sqrt(lightcuts::diagonal2(box));
         tree_.seed = options.seed;
+        if constexpr (std::same_as<Lights, InstantSceneLights>) tree_.instants = forest.instants();
         adapt(options.adaptation.value_or(0.0f));
     }
 
@@ -44,11 +53,15 @@ public:
     void adapt(float radiance) override {
         product_.cut.adaptation = radiance;
         float strongest = 0.0f;
-        for (const auto& light : scene_.virtual_lights) {
-            strongest = std::max({strongest, light.intensity.x, light.intensity.y, light.intensity.z});
-        }
+        const auto look_at = [&](const auto& lights) {
+            for (const auto& light : lights) {
+                strongest = std::max({strongest, light.intensity.x, light.intensity.y, light.intensity.z});
+            }
+        };
+        look_at(scene_.virtual_lights);
+        look_at(scene_.at_instants.virtual_lights);
         if (clamps_ && radiance > 0.0f && strongest > 0.0f) {
-            product_.cut.clamp.transfer = largest_share * radiance / strongest;
+            product_.cut.clamp.transfer = largest_share * radiance * rays_apart_ / strongest;
         }
     }
 
@@ -58,7 +71,7 @@ public:
         if (points.empty()) return {};
         auto& own = static_cast<PairScratch&>(scratch);
         own.points.clear();
-        for (const SurfacePoint& p : points) own.points.add(p, share);
+        for (const SurfacePoint& p : points) own.points.add(p, share, receiver_name(scene_, p));
         lightcuts::GatherTreeOptions tree = tree_;
         tree.seed = lightcuts::hash_keys(tree_.seed, points.front().pixel);
         own.trees.build(own.points.diffuse, own.points.glossy, own.points.fog, tree);
@@ -92,9 +105,10 @@ private:
 
     const Scene& scene_;
     const RayScene& rays_;
-    std::unique_ptr<const SceneLights> lights_;
+    std::unique_ptr<const Lights> lights_;
     const Forest& forest_;  ///< of `lights_`
     bool clamps_;
+    float rays_apart_ = 1.0f;  ///< one in so many of a pixel's eye rays is at the instant of a virtual light
     lightcuts::ProductOptions product_;
     lightcuts::GatherTreeOptions tree_;
 };
@@ -105,10 +119,18 @@ std::unique_ptr<Shader> make_multidimensional_shader(const Scene& scene, const R
     Options options = given;
     // Pairs of one light cluster draw different lights, where one for all would be wrong together.
     if (!given.is_given("--representatives")) options.representatives = 32;
+    if (scene.at_instants.count() > 0) {
+        auto lights = std::make_unique<const InstantSceneLights>(scene, options);
+        const auto& forest = lights->forest();
+        using Forest = std::remove_cvref_t<decltype(forest)>;
+        return std::make_unique<MultidimensionalShader<InstantSceneLights, Forest>>(scene, rays, std::move(lights),
+                                                                                    forest, options);
+    }
     auto lights = std::make_unique<const SceneLights>(scene, options);
     const SceneLights& trees = *lights;
     return trees.visit([&]<class F>(const F& forest) -> std::unique_ptr<Shader> {
-        return std::make_unique<MultidimensionalShader<F>>(scene, rays, std::move(lights), forest, options);
+        return std::make_unique<MultidimensionalShader<SceneLights, F>>(scene, rays, std::move(lights), forest,
+                                                                        options);
     });
 }
 

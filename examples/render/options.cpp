@@ -20,13 +20,14 @@ namespace render {
 namespace {
 
 constexpr int largest_side = 1 << 16;
+constexpr double longest_time = 1e6;              ///< seconds
+constexpr std::uint32_t most_instants = 65536;    ///< as many as time vectors hold
 constexpr long long largest_picture = 1ll << 27;  ///< pixels
 
 const std::vector<std::string> methods = {
     "exhaustive", "lightcuts",     "multidimensional",   "unified-cut",         "ward",
     "power",      "tree-sampling", "adaptive-splitting", "stochastic-lightcuts"};
 const std::vector<std::string> later_methods = {"reconstruction", "row-column"};
-const std::vector<std::string> later_options = {"--instants", "--shutter"};
 const std::vector<std::string> builders = {"binned", "agglomerate", "longest-axis"};
 
 bool contains(const std::vector<std::string>& words, const std::string& word) {
@@ -233,6 +234,19 @@ Options parse_options(int argc, const char* const* argv) {
     text("--fov", "DEG", "vertical field of view (45 with --eye, else the camera's)", [&](const std::string& s) {
         options.fov = number_in("--fov", s, 1e-3f, 179.0f, "degrees between 0.001 and 179");
     });
+    text("--shutter", "S", "seconds for which the shutter is open (0: nothing moves)", [&](const std::string& s) {
+        options.shutter.seconds = number_in("--shutter", s, 0.0, longest_time, "seconds from 0 to 1e6");
+    });
+    count("--instants", "moments while it is open at which eye rays and lights are (1)", 1, most_instants,
+          options.shutter.instants);
+    text("--shutter-shape", "gaussian|box", "how light comes in while it is open (gaussian)",
+         [&](const std::string& s) {
+             if (s != "gaussian" && s != "box") refuse("--shutter-shape", s, "gaussian or box");
+             options.shutter.shape = s == "box" ? ShutterShape::box : ShutterShape::gaussian;
+         });
+    text("--time", "S", "second of the scene's clock at which the shutter opens (0)", [&](const std::string& s) {
+        options.shutter.opens = number_in("--time", s, -longest_time, longest_time, "seconds from -1e6 to 1e6");
+    });
     text("--method", "NAME", listed(methods) + " (lightcuts)", [&](const std::string& s) { set_method(options, s); });
     text("--error-ratio", "R", "largest error of a cluster as a share of the total (0.02)", [&](const std::string& s) {
         options.error_ratio = number_in("--error-ratio", s, 0.0f, huge, "a number of at least 0");
@@ -344,13 +358,6 @@ Options parse_options(int argc, const char* const* argv) {
     });
     app.add_flag("--resume", options.resume, "go on with the interrupted picture that --output names");
     app.add_flag("--quiet", options.quiet, "print nothing but errors");
-
-    for (const std::string& name : later_options) {
-        const auto refuse_later = [name](const std::string&) {
-            throw usage_error(name + ": comes with a later version; leave it out");
-        };
-        text(name, "", "", refuse_later)->expected(0, 1)->group("");
-    }
 
     try {
         app.parse(argc, argv);

@@ -11,6 +11,8 @@
 #include <lightcuts/cut/clamp.hpp>
 #include <lightcuts/source/sun_sky.hpp>
 
+#include "shutter.hpp"
+
 namespace render {
 
 /// A command line that cannot be obeyed; `what()` is one line. Exit status 2.
@@ -37,6 +39,8 @@ struct Options {
     std::optional<glm::dvec3> target;
     std::optional<glm::vec3> up;
     std::optional<float> fov;  ///< vertical, degrees
+
+    Shutter shutter;
 
     std::string method = "lightcuts";        ///< one of those that `--help` lists
     float error_ratio = 0.02f;               ///< a cluster is refined while its bound exceeds this share of the total

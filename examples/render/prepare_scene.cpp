@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "io/light_table.hpp"
 #include "io/load_scene.hpp"
@@ -26,16 +27,31 @@ void add_fog(Scene& scene, const Options& options) {
         leave_out(scene.left_out, "light that fog scatters to surfaces", "indirect light passes fog only");
 }
 
+/// Only gather points that have an instant can be lit by lights that have one.
+void require_method_for_motion(const Scene& scene, const Options& options) {
+    if (options.method == "multidimensional" || options.method == "unified-cut") return;
+    const std::string way_out = "; give --method multidimensional, or --shutter 0";
+    if (scene.at_instants.count() > 0) {
+        throw usage_error("--method " + options.method + ": lights move while the shutter is open, and this method " +
+                          "sums up lights that stand still" + way_out);
+    }
+    if (options.indirect > 0 && scene.light_moves()) {
+        throw usage_error("--method " + options.method + ": what moves while the shutter is open changes indirect " +
+                          "light, and this method sums up lights that stand still" + way_out + " or --indirect 0");
+    }
+}
+
 }  // namespace
 
 Scene prepare_scene(Options& options) {
-    Scene scene = load_scene(options.scene);
+    Scene scene = load_scene(options.scene, options.shutter);
     if (!options.lights.empty()) add_light_table(options.lights, scene);
     add_emitter_lights(scene, {.points = options.area_points, .total = options.area_lights});
     add_sphere_lights(scene, options.area_points, options.seed);
     add_surroundings(scene, options);
     require_lights(scene);
     if (options.fog > 0.0f) add_fog(scene, options);
+    require_method_for_motion(scene, options);
     if (options.indirect > 0) name_amplifying_materials(scene);
     return scene;
 }

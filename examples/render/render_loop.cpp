@@ -13,6 +13,7 @@
 #include "io/resume_file.hpp"
 #include "pixel_filter.hpp"
 #include "progress.hpp"
+#include "shutter.hpp"
 #include "tile_order.hpp"
 
 namespace render {
@@ -44,7 +45,7 @@ struct Workspace {
 
 class TileRenderer {
 public:
-    TileRenderer(const View& view, const EyePathTracer& surfaces, const Shader& shader, const Options& options,
+    TileRenderer(const MovingView& view, const EyePathTracer& surfaces, const Shader& shader, const Options& options,
                  Picture& picture)
         : view_(view), surfaces_(surfaces), shader_(shader), options_(options), picture_(picture) {}
 
@@ -88,21 +89,24 @@ public:
 private:
     std::uint32_t pixel_index(int x, int y) const { return static_cast<std::uint32_t>(y * view_.width() + x); }
 
-    EyeRay eye_ray(int x, int y, int sample) const {
+    EyeRay eye_ray(const View& view, int x, int y, int sample) const {
         const std::uint32_t pixel = pixel_index(x, y);
         LensSample at;
-        if (view_.has_lens()) {
+        if (view.has_lens()) {
             at = lens_sample(options_.seed, pixel, sample, options_.spp);
         } else {
             at.offset = pixel_offset(options_.seed, pixel, sample, options_.spp);
         }
         const glm::vec2 offset = filtered(options_.filter, at.offset);
-        return view_.ray(static_cast<float>(x) + offset.x, static_cast<float>(y) + offset.y, at.lens);
+        return view.ray(static_cast<float>(x) + offset.x, static_cast<float>(y) + offset.y, at.lens);
     }
 
     void cast(int x, int y, int sample, PixelSum& sum, std::vector<SurfacePoint>& points) const {
         const std::uint32_t pixel = pixel_index(x, y);
-        const EyeRay ray = eye_ray(x, y, sample);
+        const std::uint32_t instant = instant_of_ray(options_.seed, pixel, static_cast<std::uint32_t>(sample),
+                                                     static_cast<std::uint32_t>(options_.spp), view_.instants());
+        EyeRay ray = eye_ray(view_.at(instant), x, y, sample);
+        ray.instant = instant;
         const EyeRaySeen seen = surfaces_.follow(ray, pixel, static_cast<std::uint32_t>(sample), points);
         sum.radiance += glm::dvec3(seen.emitted);
         if (std::isfinite(seen.depth)) {
@@ -197,7 +201,7 @@ private:
         }
     }
 
-    const View& view_;
+    const MovingView& view_;
     const EyePathTracer& surfaces_;
     const Shader& shader_;
     const Options& options_;
@@ -269,8 +273,8 @@ private:
 
 }  // namespace
 
-Rendering render_picture(const View& view, const EyePathTracer& surfaces, const Shader& shader, const Options& options,
-                         ResumeFile* resume_file) {
+Rendering render_picture(const MovingView& view, const EyePathTracer& surfaces, const Shader& shader,
+                         const Options& options, ResumeFile* resume_file) {
     Rendering rendering;
     rendering.picture = Picture(view.width(), view.height());
     add_channels(rendering.picture, options);

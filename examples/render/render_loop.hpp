@@ -5,10 +5,10 @@
 #include <limits>
 
 #include "io/picture.hpp"
+#include "moving_view.hpp"
 #include "options.hpp"
 #include "shader.hpp"
 #include "surfaces/surface.hpp"
-#include "view.hpp"
 
 namespace render {
 
@@ -45,7 +45,7 @@ struct Rendering {
 /// Channels as `options.aovs` asks: `cut_size`, `shadow_rays` (sums along an eye ray, mean over the pixel's rays),
 /// `error_bound.R` `.G` `.B` (likewise, weighted along mirror paths), `depth` (mean over the rays that hit a surface,
 /// infinite if none does), `normal.X` `.Y` `.Z` (mean of the first hits' shading normals).
-Rendering render_picture(const View& view, const EyePathTracer& surfaces, const Shader& shader, const Options& options,
-                         ResumeFile* resume_file = nullptr);
+Rendering render_picture(const MovingView& view, const EyePathTracer& surfaces, const Shader& shader,
+                         const Options& options, ResumeFile* resume_file = nullptr);
 
 }  // namespace render

@@ -15,12 +15,14 @@
 #include <lightcuts/light/omni.hpp>
 #include <lightcuts/light/oriented.hpp>
 #include <lightcuts/light/spot.hpp>
+#include <lightcuts/product/timed_light.hpp>
 #include <lightcuts/source/sphere.hpp>
 
 #include "fog.hpp"
 #include "io/left_out.hpp"
 #include "lights/background.hpp"
 #include "lights/lighting.hpp"
+#include "moving_vertices.hpp"
 
 namespace render {
 
@@ -113,20 +115,48 @@ inline std::array<const TextureUse*, 9> textures_of(const Material& m) {
             &m.alpha_texture};
 }
 
+/// Where a camera stands and looks.
+struct CameraPose {
+    glm::dvec3 eye{0.0};
+    glm::dvec3 target{0.0, 0.0, -1.0};
+    glm::vec3 up{0.0f, 1.0f, 0.0f};
+
+    bool operator==(const CameraPose&) const = default;
+};
+
 /// In world coordinates.
 struct Camera {
     std::string name;
     glm::dvec3 eye{0.0};
     glm::dvec3 target{0.0, 0.0, -1.0};
     glm::vec3 up{0.0f, 1.0f, 0.0f};
-    float vertical_fov = 45.0f;  ///< degrees
-    double height = 0.0;         ///< of the view of an orthographic camera; 0: perspective
-    std::string other_name{};    ///< by which it can be chosen, too
+    float vertical_fov = 45.0f;             ///< degrees
+    double height = 0.0;                    ///< of the view of an orthographic camera; 0: perspective
+    std::string other_name{};               ///< by which it can be chosen, too
+    std::vector<CameraPose> at_instants{};  ///< at each of the scene's; empty: it does not move
+};
+
+/// Lights that exist at one of the scene's instants each, at which alone they light anything: one that moves is one for
+/// each instant.
+struct LightsAtInstants {
+    std::vector<lightcuts::InstantLight<lightcuts::OmniLight<>>> omni;
+    std::vector<lightcuts::InstantLight<lightcuts::OrientedPointLight<>>> oriented;
+    std::vector<lightcuts::InstantLight<lightcuts::SpotLight<>>> spots;
+    std::vector<lightcuts::InstantLight<lightcuts::DistantLight<>>> directional;
+    std::vector<lightcuts::InstantLight<lightcuts::SphereLight<>>> spheres;
+    std::vector<lightcuts::InstantLight<lightcuts::SpherePointLight<>>> sphere_points;  ///< in `spheres` of these
+    std::vector<lightcuts::InstantLight<lightcuts::VirtualPointLight<>>> virtual_lights;
+
+    /// Those that are added up at a point: spheres count by their points.
+    std::size_t count() const {
+        return omni.size() + oriented.size() + spots.size() + directional.size() + sphere_points.size() +
+               virtual_lights.size();
+    }
 };
 
 /// A triangle mesh with everything that lights it and looks at it. Per-vertex arrays have one entry a position, or
 /// none at all: a scene without colors has no array of them. Positions, also those of lights, are world coordinates
-/// less `origin`.
+/// less `origin`. Of what moves, they show where it is as the shutter opens.
 struct Scene {
     std::string name;
     glm::dvec3 origin{0.0};
@@ -153,6 +183,12 @@ struct Scene {
     std::size_t sky_lights = 0;
     std::size_t ground_lights = 0;
 
+    std::vector<MovingVertices> moving;      ///< in ascending order, apart from one another
+    std::vector<RigidMotion> rigid_motions;  ///< that are still to be applied
+    LightsAtInstants at_instants;
+    /// When the instants are, ascending, from 0 as the shutter opens to 1 as it closes; empty if nothing moves.
+    std::vector<float> instants;
+
     Lighting lighting;
     Background background;
     Fog fog;
@@ -165,8 +201,12 @@ struct Scene {
     /// Those that are added up at a point, of all kinds: spheres count by their points.
     std::size_t light_count() const {
         return omni.size() + oriented.size() + spots.size() + directional.size() + sphere_points.size() +
-               virtual_lights.size();
+               virtual_lights.size() + at_instants.count();
     }
+    /// Nothing moves, neither what is seen nor the camera.
+    bool is_still() const { return instants.empty(); }
+    /// What light there is differs between instants.
+    bool light_moves() const { return !moving.empty() || at_instants.count() > 0; }
 };
 
 }  // namespace render

@@ -26,10 +26,8 @@ namespace {
 using Forest = SceneLights::Forest;
 using Receiver = lightcuts::Receiver<SurfaceMaterial>;
 
-Receiver receiver_of(const SurfacePoint& p) {
-    // Random choices differ between pixels, eye rays and the points of one eye ray.
-    const std::uint64_t name = lightcuts::hash_keys(p.pixel, p.sample, p.vertex);
-    return {p.position, SurfaceMaterial(p), p.ray_origin, static_cast<std::uint32_t>(name)};
+Receiver receiver_of(const Scene& scene, const SurfacePoint& p) {
+    return {p.position, SurfaceMaterial(p), p.ray_origin, receiver_name(scene, p)};
 }
 
 /// `CutForest`: one of the forests of SceneLights.
@@ -57,7 +55,8 @@ public:
             for (std::size_t begin = 0; begin < points.size() && !interrupted(); begin += group) {
                 const std::size_t count = std::min(group, points.size() - begin);
                 own.receivers.clear();
-                for (const SurfacePoint& p : points.subspan(begin, count)) own.receivers.push_back(receiver_of(p));
+                for (const SurfacePoint& p : points.subspan(begin, count))
+                    own.receivers.push_back(receiver_of(scene_, p));
                 own.results.resize(count);
                 lightcuts::shade(forest_, std::span<const Receiver>(own.receivers), oracle, std::span(own.results),
                                  own.cuts, cut_);
@@ -100,7 +99,7 @@ public:
         auto& own = static_cast<LightScratch&>(scratch).lights;
         with_oracle(scene_, rays_, [&](const auto& oracle) {
             for (std::size_t i = 0; i < points.size() && !interrupted(); ++i) {
-                const Receiver receiver = receiver_of(points[i]);
+                const Receiver receiver = receiver_of(scene_, points[i]);
                 const auto estimate = method_(lights_.forest(), receiver, oracle, own);
                 out[i] = {estimate.radiance, glm::vec3(0.0f),  estimate.clamp_threshold,
                           estimate.queries,  estimate.queries, false};

@@ -8,6 +8,7 @@
 
 #include "io/escape.hpp"
 #include "memory.hpp"
+#include "motion.hpp"
 
 namespace render {
 
@@ -42,6 +43,10 @@ Json options_json(const RunReport& report) {
     json["target"] = o.target ? to_json(*o.target) : Json(nullptr);
     json["up"] = o.up ? to_json(*o.up) : Json(nullptr);
     json["fov"] = o.fov ? Json(as_written(*o.fov)) : Json(nullptr);
+    json["time"] = o.shutter.opens;
+    json["shutter"] = o.shutter.seconds;
+    json["instants"] = o.shutter.instants;
+    json["shutter_shape"] = name_of(o.shutter.shape);
     json["error_ratio"] = as_written(o.error_ratio);
     json["max_cut"] = o.max_cut;
     json["representatives"] = o.representatives;
@@ -80,9 +85,20 @@ Json options_json(const RunReport& report) {
     return json;
 }
 
+/// What moves while the shutter is open; null if nothing does.
+Json motion_json(const Scene& scene) {
+    if (scene.is_still()) return nullptr;
+    std::size_t triangles = 0;
+    for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) triangles += moves(scene, t) ? 1 : 0;
+    const LightsAtInstants& lights = scene.at_instants;
+    return {{"instants", scene.instants.size()},
+            {"triangles", triangles},
+            {"lights", lights.count() - lights.virtual_lights.size()}};
+}
+
 /// How virtual lights were clamped; null if there are none.
 Json clamp_json(const RunReport& report) {
-    if (report.scene.virtual_lights.empty()) return nullptr;
+    if (report.scene.virtual_lights.empty() && report.scene.at_instants.virtual_lights.empty()) return nullptr;
     const lightcuts::ClampingOptions clamp = report.options.clamping();
     const RenderStatistics& s = report.statistics;
     Json json;
@@ -138,7 +154,8 @@ Json to_json(const RunReport& report) {
                       {"sun", scene.sun_lights},
                       {"sky", scene.sky_lights},
                       {"ground", scene.ground_lights},
-                      {"virtual", scene.virtual_lights.size()}};
+                      {"virtual", scene.virtual_lights.size() + scene.at_instants.virtual_lights.size()}};
+    json["motion"] = motion_json(scene);
     json["seconds"] = {{"load", report.seconds.load},
                        {"particles", report.seconds.particles},
                        {"tree", report.seconds.tree},

@@ -13,6 +13,7 @@ namespace render {
 struct EyeRay {
     glm::vec3 origin{0.0f};
     glm::vec3 direction{0.0f};  ///< unit
+    std::uint32_t instant = 0;  ///< of the scene's
 };
 
 /// Where sample `sample` of `spp` lies within a pixel, [0, 1)^2: the center if it is the only one, else points that

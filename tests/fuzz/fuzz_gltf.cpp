@@ -1,4 +1,4 @@
-// A glTF file, .gltf or .glb, with all of its data in it.
+// A glTF file, .gltf or .glb, with all of its data in it: as it stands, and in motion.
 
 #include <map>
 
@@ -9,7 +9,10 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     return feed(data, size, [](std::string_view bytes) {
-        render::Scene scene = render::load_gltf("s", render::MemoryFiles({{"s", std::string(bytes)}}));
-        render::validate(scene);
+        const render::MemoryFiles files({{"s", std::string(bytes)}});
+        for (const render::Shutter& shutter : {render::Shutter{}, render::Shutter{.opens = 0.25, .seconds = 1.0}}) {
+            render::Scene scene = render::load_gltf("s", files, shutter);
+            render::validate(scene);
+        }
     });
 }

@@ -56,9 +56,20 @@ TEST(Fingerprint, NamesWhateverChangesThePicture) {
              p.options.given = {"--threads", "--later"};
              p.options.given_texts = {"7", "3"};
          }},
+        {"--time (0, now 2)", [](Pictured& p) { p.options.shutter.opens = 2.0; }},
+        {"--shutter (0, now 0.5)", [](Pictured& p) { p.options.shutter.seconds = 0.5; }},
+        {"--instants (1, now 8)", [](Pictured& p) { p.options.shutter.instants = 8; }},
+        {"--shutter-shape (gaussian, now box)",
+         [](Pictured& p) { p.options.shutter.shape = render::ShutterShape::box; }},
+        {"the camera", [](Pictured& p) { p.camera.at_instants.resize(2); }},
         {"the camera", [](Pictured& p) { p.camera.up.x = 0.1f; }},
         {"the scene's triangles", [](Pictured& p) { p.scene.positions[1].x = 1.0000001f; }},
         {"the scene's triangles", [](Pictured& p) { p.scene.normals.resize(3); }},
+        {"the scene's triangles",
+         [](Pictured& p) {
+             p.scene.moving.push_back({0, 3, 2, std::vector<glm::vec3>(6, glm::vec3(1.0f)), {}, {}});
+         }},
+        {"the lights", [](Pictured& p) { p.scene.at_instants.spots.resize(1); }},
         {"the scene's materials", [](Pictured& p) { p.scene.materials[0].roughness = 0.9f; }},
         {"the scene's materials", [](Pictured& p) { p.scene.materials[0].emission_texture.uv.offset.y = 0.1f; }},
         {"the scene's materials", [](Pictured& p) { p.scene.textures[0].texels[0].w = 0.4f; }},

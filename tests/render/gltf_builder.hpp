@@ -3,6 +3,7 @@
 #include <render/io/gltf_writer.hpp>
 #include <render/io/load_gltf.hpp>
 #include <render/io/validate.hpp>
+#include <render/motion.hpp>
 #include <render/scene.hpp>
 
 /// Makes glTF files in memory, and reads them.
@@ -15,8 +16,9 @@ public:
     }
 
     /// Read and checked.
-    render::Scene load() const {
-        render::Scene scene = render::load_gltf(path, render::MemoryFiles(files()));
+    render::Scene load(const render::Shutter& shutter = {}) const {
+        render::Scene scene = render::load_gltf(path, render::MemoryFiles(files()), shutter);
+        render::set_instants(scene, shutter);
         render::validate(scene);
         return scene;
     }

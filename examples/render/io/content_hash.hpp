@@ -31,7 +31,7 @@ public:
             add_word(word);
         }
         std::uint64_t rest = 0;
-        std::memcpy(&rest, bytes, size);
+        if (size > 0) std::memcpy(&rest, bytes, size);  // an empty list has no address
         add_word(rest);
         add_word(size);
         return *this;

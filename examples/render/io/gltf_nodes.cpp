@@ -11,9 +11,6 @@
 #include <glm/mat3x3.hpp>
 #include <lightcuts/core/invalid_input.hpp>
 
-#include "io/escape.hpp"
-#include "io/gltf_accessor.hpp"
-
 namespace render {
 namespace {
 
@@ -26,6 +23,15 @@ glm::dmat3 without_scale(glm::dmat3 m) {
     return m;
 }
 
+/// The image of -z under the whole transform; where a scale of zero makes that the null vector, under the rotations
+/// alone.
+glm::dvec3 forward_under(const glm::dmat4& to_world, const glm::dmat3& turn) {
+    const glm::dvec3 axis = -glm::dvec3(to_world[2]);
+    const double length = glm::length(axis);
+    const double rest = glm::length(turn[2]);
+    return length > 0.0 ? axis / length : rest > 0.0 ? -turn[2] / rest : glm::dvec3(0.0);
+}
+
 }  // namespace
 
 glm::dmat3 rotation_of(const double* q) {
@@ -33,10 +39,11 @@ glm::dmat3 rotation_of(const double* q) {
     return glm::length(quaternion) > 0.0 ? glm::mat3_cast(glm::normalize(quaternion)) : glm::dmat3(1.0);
 }
 
-GltfNodes::GltfNodes(GltfDocument& document, LeftOutList& left_out) : document_(document) {
+GltfNodes::GltfNodes(GltfDocument& document, const Shutter& shutter, LeftOutList& left_out)
+    : document_(document), shutter_(shutter), animation_(document, shutter, left_out) {
     read_parts();
     read_parents();
-    apply_animation(left_out);
+    apply_animation();
     compose();
     find_shown();
     note_other_scenes(left_out);
@@ -84,59 +91,59 @@ void GltfNodes::read_parents() {
     }
 }
 
-void GltfNodes::apply_animation(LeftOutList& left_out) {
-    const std::size_t animations = document_.count("animations");
-    if (animations == 0) return;
-    const JsonObject first = document_.element("animations", 0, "animation");
-    for (const nlohmann::json& json : first.list("channels")) {
-        apply_channel(first, JsonObject(json, first.name() + ": a channel"), left_out);
+void GltfNodes::apply_animation() {
+    for (std::size_t i = 0; i < count(); ++i) {
+        for (const GltfChannel& channel : animation_.channels(i)) {
+            if (channel.property != GltfChannel::Property::weights && parts_[i].is_matrix) {
+                json(i).fail("it is animated, so it may not have a matrix");
+            }
+        }
+        parts_[i] = parts_at(i, shutter_.opens);
+        weights_[i] = weights(i, shutter_.opens);
     }
-    leave_out(left_out, animations > 1 ? "all animations but the first" : "the animation",
-              animations > 1 ? "a picture shows one moment, the beginning of the first"
-                             : "a picture shows one moment, its beginning");
 }
 
-/// Takes the first key's value, which holds before it, too.
-void GltfNodes::apply_channel(const JsonObject& animation, const JsonObject& channel, LeftOutList& left_out) {
-    const JsonObject target = channel.object("target");
-    const auto node = target.index("node");
-    if (!node) return;  // the target of an extension
-    json(*node);
-    const std::string path = target.text("path");
-    if (path != "translation" && path != "rotation" && path != "scale" && path != "weights") {
-        leave_out(left_out, "an animation of '" + excerpt(path) + "'", "such channels are unknown");
-        return;
+GltfNodes::Parts GltfNodes::parts_at(std::size_t node, double second) const {
+    Parts parts = parts_[node];
+    for (const GltfChannel& channel : animation_.channels(node)) {
+        if (channel.property == GltfChannel::Property::weights) continue;
+        const std::vector<double> value = channel.at(second);
+        switch (channel.property) {
+            case GltfChannel::Property::translation: parts.translation = glm::make_vec3(value.data()); break;
+            case GltfChannel::Property::rotation: parts.rotation = rotation_of(value.data()); break;
+            case GltfChannel::Property::scale: parts.scale = glm::make_vec3(value.data()); break;
+            case GltfChannel::Property::weights: break;
+        }
     }
-    const std::size_t sampler_index = channel.needed("sampler");
-    const nlohmann::json& samplers = animation.list("samplers");
-    if (sampler_index >= samplers.size()) channel.fail("its sampler does not exist; the file is damaged");
-    const JsonObject sampler(samplers[sampler_index], animation.name() + ": a sampler");
-    const std::size_t output = sampler.needed("output");
-    const std::size_t components = components_of(document_, output);
-    // A cubic spline's keys are triples: incoming tangent, value, outgoing tangent.
-    const bool is_cubic = sampler.text("interpolation", "LINEAR") == "CUBICSPLINE";
-    const auto count_of = [&](std::size_t accessor) {
-        return document_.element("accessors", accessor, "accessor").needed("count");
-    };
-    const std::size_t keys = count_of(sampler.needed("input")) * (is_cubic ? 3 : 1);
-    // A key of weights has one element for each weight; a key of anything else is one element.
-    const std::size_t elements = keys > 0 ? count_of(output) / keys : 0;
-    const bool fits = path == "weights" ? components == 1 && elements > 0
-                                        : components == (path == "rotation" ? 4u : 3u) && elements == 1;
-    if (!fits) sampler.fail("its output has not one " + path + " for each key; correct it");
-    const std::vector<double> values = read_accessor(document_, output, components, (is_cubic ? 2 : 1) * elements);
-    const std::vector<double> value(values.end() - static_cast<std::ptrdiff_t>(elements * components), values.end());
-    Parts& parts = parts_[*node];
-    if (path == "weights") {
-        weights_[*node] = value;
-    } else if (path == "translation") {
-        parts.translation = glm::make_vec3(value.data());
-    } else if (path == "rotation") {
-        parts.rotation = rotation_of(value.data());
-    } else {
-        parts.scale = glm::make_vec3(value.data());
+    return parts;
+}
+
+std::vector<double> GltfNodes::weights(std::size_t node, double second) const {
+    std::vector<double> result = weights_[node];
+    for (const GltfChannel& channel : animation_.channels(node)) {
+        if (channel.property == GltfChannel::Property::weights) result = channel.at(second);
     }
-    if (path != "weights" && parts.is_matrix) json(*node).fail("it is animated, so it may not have a matrix");
+    return result;
+}
+
+GltfNodes::Pose GltfNodes::pose(std::size_t node, double second) const {
+    std::vector<std::size_t> line{node};
+    while (parent_[line.back()] != none) line.push_back(parent_[line.back()]);
+    Pose pose;
+    glm::dmat3 turn(1.0);
+    for (auto at = line.rbegin(); at != line.rend(); ++at) {
+        const Parts parts = parts_at(*at, second);
+        pose.to_world = at == line.rbegin() ? parts.to_parent() : pose.to_world * parts.to_parent();
+        turn = at == line.rbegin() ? parts.turn() : turn * parts.turn();
+    }
+    pose.forward = forward_under(pose.to_world, turn);
+    return pose;
+}
+
+std::uint32_t GltfNodes::least_parts(std::size_t node) const {
+    std::uint32_t most = 0;
+    for (std::size_t at = node; at != none; at = parent_[at]) most = std::max(most, animation_.least_parts(at));
+    return most;
 }
 
 void GltfNodes::compose() {
@@ -152,12 +159,7 @@ void GltfNodes::compose() {
         const bool is_root = parent_[i] == none;
         to_world_[i] = is_root ? parts_[i].to_parent() : to_world_[parent_[i]] * parts_[i].to_parent();
         turns[i] = is_root ? parts_[i].turn() : turns[parent_[i]] * parts_[i].turn();
-        // The image of -z under the whole transform; where a scale of zero makes that the null vector, under the
-        // rotations alone.
-        const glm::dvec3 axis = -glm::dvec3(to_world_[i][2]);
-        const double length = glm::length(axis);
-        const double rest = glm::length(turns[i][2]);
-        forward_[i] = length > 0.0 ? axis / length : rest > 0.0 ? -turns[i][2] / rest : glm::dvec3(0.0);
+        forward_[i] = forward_under(to_world_[i], turns[i]);
         order.insert(order.end(), children_[i].begin(), children_[i].end());
     }
     if (order.size() == count()) return;

@@ -7,6 +7,8 @@
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
 #include <lightcuts/core/invalid_input.hpp>
 
 #include "io/gltf_accessor.hpp"
@@ -22,7 +24,38 @@ void add(std::vector<V>& to, const std::vector<V>& difference, double weight) {
     for (std::size_t i = 0; i < std::min(to.size(), difference.size()); ++i) to[i] += weight * difference[i];
 }
 
+glm::vec4 posed_tangent(const glm::dmat3& linear, const glm::dvec4& v) {
+    const double side = glm::determinant(linear) < 0.0 ? -v.w : v.w;
+    return {unit_or_zero(linear * glm::dvec3(v)), side < 0.0 ? -1.0f : 1.0f};
+}
+
 }  // namespace
+
+glm::vec3 unit_or_zero(const glm::dvec3& v) {
+    const double length = glm::length(v);
+    return glm::vec3(length > 0.0 ? v / length : v);
+}
+
+PosedVertices posed_vertices(const GltfPrimitive& primitive, std::span<const glm::dmat4> to_world) {
+    PosedVertices posed;
+    const glm::dmat4* transform = nullptr;
+    glm::dmat3 linear(1.0);
+    glm::dmat3 normal_matrix(1.0);
+    for (std::size_t v = 0; v < primitive.positions.size(); ++v) {
+        if (const glm::dmat4* own = &to_world[to_world.size() > 1 ? v : 0]; own != transform) {
+            transform = own;
+            linear = glm::dmat3(*transform);
+            const bool invertible = glm::determinant(linear) != 0.0;
+            normal_matrix = invertible ? glm::transpose(glm::inverse(linear)) : glm::dmat3(1.0);
+        }
+        posed.positions.emplace_back(*transform * glm::dvec4(primitive.positions[v], 1.0));
+        posed.normals.push_back(primitive.normals.empty() ? glm::vec3(0.0f)
+                                                          : unit_or_zero(normal_matrix * primitive.normals[v]));
+        posed.tangents.push_back(primitive.tangents.empty() ? glm::vec4(0.0f)
+                                                            : posed_tangent(linear, primitive.tangents[v]));
+    }
+    return posed;
+}
 
 GltfPrimitive morphed(const GltfPrimitive& primitive, const std::vector<double>& weights) {
     GltfPrimitive result = primitive;
@@ -40,28 +73,50 @@ GltfPrimitive morphed(const GltfPrimitive& primitive, const std::vector<double>&
     return result;
 }
 
-const std::vector<glm::dmat4>& GltfSkins::joints(std::size_t index) {
-    const auto known = joints_.find(index);
-    if (known != joints_.end()) return known->second;
-    const JsonObject skin = document_.element("skins", index, "skin");
-    std::vector<glm::dmat4> matrices;
-    for (const std::size_t joint : skin.indices("joints")) {
+const GltfSkins::Skin& GltfSkins::skin(std::size_t index) {
+    const auto known = skins_.find(index);
+    if (known != skins_.end()) return known->second;
+    const JsonObject json = document_.element("skins", index, "skin");
+    Skin skin;
+    for (const std::size_t joint : json.indices("joints")) {
         nodes_.json(joint);  // throws if there is none
-        matrices.push_back(nodes_.to_world(joint));
+        skin.joints.push_back(joint);
+        skin.to_world.push_back(nodes_.to_world(joint));
     }
-    if (const auto accessor = skin.index("inverseBindMatrices")) {
+    if (const auto accessor = json.index("inverseBindMatrices")) {
         const std::vector<double> inverse = read_accessor(document_, *accessor, 16);
-        if (inverse.size() < 16 * matrices.size()) skin.fail("it has fewer inverseBindMatrices than joints");
-        for (std::size_t j = 0; j < matrices.size(); ++j) {
-            matrices[j] = matrices[j] * glm::make_mat4(&inverse[16 * j]);
+        if (inverse.size() < 16 * skin.joints.size()) json.fail("it has fewer inverseBindMatrices than joints");
+        for (std::size_t j = 0; j < skin.joints.size(); ++j) {
+            skin.inverse.push_back(glm::make_mat4(&inverse[16 * j]));
+            skin.to_world[j] = skin.to_world[j] * skin.inverse[j];
         }
     }
-    return joints_.emplace(index, std::move(matrices)).first->second;
+    return skins_.emplace(index, std::move(skin)).first->second;
 }
 
 std::vector<glm::dmat4> GltfSkins::to_world(std::size_t index, const GltfPrimitive& primitive) {
     if (!primitive.bones_problem.empty()) throw lightcuts::invalid_input(primitive.bones_problem);
-    const std::vector<glm::dmat4>& matrices = joints(index);
+    return blended(index, primitive, skin(index).to_world);
+}
+
+std::vector<glm::dmat4> GltfSkins::to_world(std::size_t index, const GltfPrimitive& primitive, double second) const {
+    const Skin& skin = skins_.at(index);
+    std::vector<glm::dmat4> matrices;
+    for (std::size_t j = 0; j < skin.joints.size(); ++j) {
+        const glm::dmat4 joint = nodes_.pose(skin.joints[j], second).to_world;
+        matrices.push_back(skin.inverse.empty() ? joint : joint * skin.inverse[j]);
+    }
+    return blended(index, primitive, matrices);
+}
+
+std::uint32_t GltfSkins::least_parts(std::size_t index) const {
+    std::uint32_t most = 0;
+    for (const std::size_t joint : skins_.at(index).joints) most = std::max(most, nodes_.least_parts(joint));
+    return most;
+}
+
+std::vector<glm::dmat4> GltfSkins::blended(std::size_t index, const GltfPrimitive& primitive,
+                                           const std::vector<glm::dmat4>& matrices) const {
     std::vector<bool> is_used(primitive.positions.size());
     for (const glm::uvec3& t : primitive.triangles) is_used[t.x] = is_used[t.y] = is_used[t.z] = true;
     // Where vertices of no triangle go is of no matter, as long as they stay near the others.

@@ -13,6 +13,7 @@
 #include "io/load_obj.hpp"
 #include "io/text_file.hpp"
 #include "io/validate.hpp"
+#include "motion.hpp"
 #include "scenes/builtin.hpp"
 
 namespace render {
@@ -88,7 +89,7 @@ Scene load_builtin(std::string_view scene) {
 
 }  // namespace
 
-Scene load_scene(std::string_view path_or_builtin) {
+Scene load_scene(std::string_view path_or_builtin, const Shutter& shutter) {
     Scene scene;
     if (path_or_builtin.starts_with(prefix)) {
         scene = load_builtin(path_or_builtin);
@@ -98,7 +99,7 @@ Scene load_scene(std::string_view path_or_builtin) {
         const std::string extension = in_lower_case(path.extension().string());
         const DiskFiles files;
         if (extension == ".gltf" || extension == ".glb") {
-            scene = load_gltf(path, files);
+            scene = load_gltf(path, files, shutter);
         } else if (extension == ".obj") {
             scene = load_obj(path, files);
         } else {
@@ -107,6 +108,8 @@ Scene load_scene(std::string_view path_or_builtin) {
         }
         scene.files = files.taken();
     }
+    apply_rigid_motions(scene, shutter);
+    set_instants(scene, shutter);
     validate(scene);
     return scene;
 }

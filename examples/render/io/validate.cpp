@@ -15,6 +15,7 @@
 #include <lightcuts/core/invalid_input.hpp>
 #include <lightcuts/core/vector.hpp>
 
+#include "motion.hpp"
 #include "surfaces/reflectance.hpp"
 #include "triangle.hpp"
 
@@ -100,6 +101,33 @@ struct Checker {
             }
             if (scene.triangle_material[t] >= scene.materials.size()) {
                 fail("triangle " + std::to_string(t) + " has a material that does not exist; correct its index");
+            }
+        }
+    }
+
+    /// What moves has all of it at all steps, and no triangle moves with but some of its corners.
+    void motion() const {
+        for (const MovingVertices& part : scene.moving) {
+            const std::size_t size = static_cast<std::size_t>(part.count) * part.steps;
+            if (part.steps < 2 || part.positions.size() != size ||
+                part.normals.size() != (scene.normals.empty() ? 0 : size) ||
+                part.tangents.size() != (scene.tangents.empty() ? 0 : size)) {
+                fail("what moves from vertex " + std::to_string(part.first) +
+                     " on has not one position, normal or tangent for each vertex at each step");
+            }
+            const auto bad = std::find_if(part.positions.begin(), part.positions.end(),
+                                          [](const glm::vec3& p) { return !is_finite(p); });
+            if (bad != part.positions.end()) {
+                const auto place = static_cast<std::size_t>(bad - part.positions.begin()) % part.count;
+                fail("vertex " + std::to_string(part.first + place) + " moves to " + text(*bad) +
+                     ", which is not finite; correct its animation");
+            }
+        }
+        for (std::size_t t = 0; !scene.moving.empty() && t < scene.triangles.size(); ++t) {
+            const glm::uvec3& corner = scene.triangles[t];
+            const MovingVertices* part = motion_of(scene, corner.x);
+            if (motion_of(scene, corner.y) != part || motion_of(scene, corner.z) != part) {
+                fail("triangle " + std::to_string(t) + " moves with some of its corners only; separate its vertices");
             }
         }
     }
@@ -253,8 +281,17 @@ struct Checker {
     }
 };
 
-/// Exactly collinear in doubles: such a triangle has no normal, cannot be hit and emits nothing.
-bool has_area(const Scene& scene, glm::uvec3 corner) { return Triangle(scene, corner).cross() != glm::dvec3(0.0); }
+/// Exactly collinear in doubles: such a triangle has no normal, cannot be hit and emits nothing. One that moves has an
+/// area if it has one at any step.
+bool has_area(const Scene& scene, glm::uvec3 corner) {
+    if (Triangle(scene, corner).cross() != glm::dvec3(0.0)) return true;
+    const MovingVertices* part = motion_of(scene, corner.x);
+    for (std::uint32_t step = 0; part && step < part->steps; ++step) {
+        const glm::uvec3 there = corner - part->first + step * part->count;
+        if (Triangle(part->positions, there).cross() != glm::dvec3(0.0)) return true;
+    }
+    return false;
+}
 
 void drop_flat_triangles(Scene& scene) {
     std::size_t kept = 0;
@@ -293,6 +330,7 @@ void validate(Scene& scene) {
     const Checker check{scene};
     check.sizes();
     check.vertices();
+    check.motion();
     check.materials();
     check.texture_places();
     check.emitters();
@@ -301,6 +339,10 @@ void validate(Scene& scene) {
     check.lights(scene.spots, "spot");
     check.lights(scene.directional, "directional");
     check.lights(scene.spheres, "spherical");
+    check.lights(scene.at_instants.omni, "moving omni");
+    check.lights(scene.at_instants.spots, "moving spot");
+    check.lights(scene.at_instants.directional, "moving directional");
+    check.lights(scene.at_instants.spheres, "moving spherical");
     if (std::none_of(scene.triangles.begin(), scene.triangles.end(),
                      [&](glm::uvec3 corner) { return has_area(scene, corner); })) {
         check.fail("every triangle has zero area; there is nothing to render");
@@ -309,7 +351,9 @@ void validate(Scene& scene) {
     drop_flat_triangles(scene);
     clip_reflectances(scene);
     scene.dropped_lights += drop_dark(scene.omni) + drop_dark(scene.oriented) + drop_dark(scene.spots) +
-                            drop_dark(scene.directional) + drop_dark(scene.spheres);
+                            drop_dark(scene.directional) + drop_dark(scene.spheres) +
+                            drop_dark(scene.at_instants.omni) + drop_dark(scene.at_instants.spots) +
+                            drop_dark(scene.at_instants.directional) + drop_dark(scene.at_instants.spheres);
 }
 
 void require_lights(const Scene& scene) {

@@ -8,6 +8,8 @@
 #include <tuple>
 #include <utility>
 
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <lightcuts/core/invalid_input.hpp>
 #include <lightcuts/source/area.hpp>
@@ -15,6 +17,7 @@
 
 #include "lights/emission_range.hpp"
 #include "lights/scene_emitter.hpp"
+#include "motion.hpp"
 #include "triangle.hpp"
 
 namespace render {
@@ -184,6 +187,50 @@ std::vector<std::size_t> points_of(const Scene& scene, const SurfaceSamplers& sa
     return points;
 }
 
+/// The most instants at which parts of the surface have lights of their own.
+std::size_t instants_of(const Scene& scene, const EmissiveSurface& surface) {
+    const bool any = std::any_of(surface.triangles.begin(), surface.triangles.end(),
+                                 [&](std::uint32_t t) { return moves(scene, t); });
+    return any ? scene.instants.size() : 1;
+}
+
+/// The light of a sample on `triangle`, and that on its other side.
+std::vector<lightcuts::OrientedPointLight<>> lights_of(const lightcuts::EmitterSample<>& sample,
+                                                       const Triangle& triangle, bool both_sides) {
+    const glm::vec3 p = sample.position;
+    const glm::vec3 n = sample.normal;
+    const float offset = light_offset_share * static_cast<float>(triangle.scale_at(glm::dvec3(p)));
+    std::vector<lightcuts::OrientedPointLight<>> lights{{p + offset * n, n, sample.intensity}};
+    if (both_sides) lights.push_back({p - offset * n, -n, sample.intensity});
+    return lights;
+}
+
+/// Barycentric coordinates (u, v) of a point of the triangle.
+glm::dvec2 place_in(const Triangle& triangle, const glm::dvec3& p) {
+    const glm::dvec3 cross = triangle.cross();
+    const double square = glm::dot(cross, cross);
+    const double u = glm::dot(glm::cross(p - triangle.a, triangle.c - triangle.a), cross) / square;
+    const double v = glm::dot(glm::cross(triangle.b - triangle.a, p - triangle.a), cross) / square;
+    return {u, v};
+}
+
+/// Adds the lights of a sample on a triangle that moves, where it is at each instant. One that grows shines more.
+void add_at_instants(Scene& scene, const lightcuts::EmitterSample<>& sample, std::uint32_t moving, bool both_sides) {
+    const Triangle opening(scene, moving);
+    const glm::dvec2 place = place_in(opening, glm::dvec3(sample.position));
+    for (std::uint32_t t = 0; t < scene.instants.size(); ++t) {
+        const Triangle triangle = triangle_at(scene, moving, scene.instants[t]);
+        if (!(triangle.area() > 0.0)) continue;
+        lightcuts::EmitterSample<> there = sample;
+        there.position = glm::vec3(triangle.at(place));
+        there.normal = glm::vec3(glm::normalize(triangle.cross()));
+        there.intensity *= static_cast<float>(triangle.area() / opening.area());
+        for (const auto& light : lights_of(there, triangle, both_sides)) {
+            scene.at_instants.oriented.push_back({light, t});
+        }
+    }
+}
+
 /// The materials of `surfaces`, each once.
 std::vector<std::uint32_t> materials_of(const std::vector<EmissiveSurface>& surfaces) {
     std::vector<std::uint32_t> materials;
@@ -220,7 +267,9 @@ void add_emitter_lights(Scene& scene, const EmitterLightOptions& options) {
     SurfaceSamplers samplers(scene, materials, surfaces.size());
     const std::vector<std::size_t> points = points_of(scene, samplers, surfaces, options);
     std::size_t all = 0;
-    for (std::size_t i = 0; i < surfaces.size(); ++i) all += points[i] * sides_of(scene, surfaces[i]);
+    for (std::size_t i = 0; i < surfaces.size(); ++i) {
+        all += points[i] * sides_of(scene, surfaces[i]) * instants_of(scene, surfaces[i]);
+    }
     if (all > most_lights) {
         throw lightcuts::invalid_input(scene.name + ": " + std::to_string(all) + " lights on " +
                                        std::to_string(surfaces.size()) +
@@ -231,13 +280,15 @@ void add_emitter_lights(Scene& scene, const EmitterLightOptions& options) {
         const EmissiveSurface& surface = surfaces[i];
         const bool both_sides = sides_of(scene, surface) == 2;
         for (const lightcuts::EmitterSample<>& sample : samplers.samples(surface, points[i])) {
-            const glm::vec3 p = sample.position;
-            const glm::vec3 n = sample.normal;
-            const Triangle triangle(scene, surface.triangles[sample.triangle]);
-            const float offset = light_offset_share * static_cast<float>(triangle.scale_at(glm::dvec3(p)));
-            scene.oriented.push_back({p + offset * n, n, sample.intensity});
-            if (both_sides) scene.oriented.push_back({p - offset * n, -n, sample.intensity});
+            const std::uint32_t triangle = surface.triangles[sample.triangle];
             has_lights[surface.material] = true;
+            if (moves(scene, triangle)) {
+                add_at_instants(scene, sample, triangle, both_sides);
+                continue;
+            }
+            for (const auto& light : lights_of(sample, Triangle(scene, triangle), both_sides)) {
+                scene.oriented.push_back(light);
+            }
         }
     }
     note_what_is_lost(scene, samplers, materials, has_lights);

@@ -30,8 +30,9 @@ struct EmitterLightOptions {
 /// Adds to `scene.oriented`, for every emissive surface, `points` lights of equal power spread evenly over its area,
 /// slightly off it along the winding's normal; as many on the other side if the material is double-sided. Each has
 /// the intensity radiance x area / `points`; where the radiance varies, by texture or opacity, they are dense where it
-/// is high. Where that would be more than `total`, surfaces get fewer, in proportion to their power, but at least one.
-/// throws: invalid_input when that would be more than 100 million lights.
+/// is high. Parts that move have theirs at each instant, in `scene.at_instants`. Where that would be more than `total`,
+/// surfaces get fewer, in proportion to their power, but at least one. throws: invalid_input when that would be more
+/// than 100 million lights.
 void add_emitter_lights(Scene& scene, const EmitterLightOptions& options);
 
 }  // namespace render

@@ -42,10 +42,13 @@ ParticleScene::ParticleScene(const Scene& scene, const RayScene& rays, Shade sha
     for (const glm::uvec3& triangle : scene.triangles) {
         for (int i = 0; i < 3; ++i) bounds_ = merge(bounds_, lightcuts::box_of(scene.positions[triangle[i]]));
     }
+    for (const MovingVertices& part : scene.moving) {
+        for (const glm::vec3& p : part.positions) bounds_ = merge(bounds_, lightcuts::box_of(p));
+    }
 }
 
 std::optional<ParticleScene::Hit> ParticleScene::intersect(const glm::vec3& origin, const glm::vec3& direction) const {
-    const auto hit = rays_.nearest(origin, direction);
+    const auto hit = rays_.nearest(origin, direction, time_);
     if (!hit) return std::nullopt;
     const Material& material = scene_.materials[scene_.triangle_material[hit->triangle]];
     const SurfaceColors colors = colors_at(scene_, hit->triangle, hit->u, hit->v);

@@ -25,8 +25,15 @@ public:
         SurfaceResponse response;
     };
 
-    /// Both must outlive this object.
+    /// The scene as the shutter opens. Both must outlive this object.
     ParticleScene(const Scene& scene, const RayScene& rays, Shade shade);
+
+    /// The scene at `time`, 0 as the shutter opens to 1 as it closes.
+    ParticleScene at(float time) const {
+        ParticleScene other = *this;
+        other.time_ = time;
+        return other;
+    }
 
     std::optional<Hit> intersect(const glm::vec3& origin, const glm::vec3& direction) const;
 
@@ -38,6 +45,7 @@ public:
     /// normals [Heitz 2018]. Where they carry more than what arrives, all are scaled down to that.
     lightcuts::ScatteredParticle<> scatter(const Hit& met, const glm::vec3& direction, const glm::vec3& u) const;
 
+    /// Of the scene at all times.
     const lightcuts::Box& bounds() const { return bounds_; }
 
 private:
@@ -47,6 +55,7 @@ private:
     const Scene& scene_;
     const RayScene& rays_;
     Shade shade_;
+    float time_ = 0;
     lightcuts::Box bounds_;
 };
 

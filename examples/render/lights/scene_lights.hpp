@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include <lightcuts/cut/forest.hpp>
+#include <lightcuts/product/timed_forest.hpp>
 #include <lightcuts/tree/light_tree.hpp>
 
 #include "options.hpp"
@@ -39,15 +40,47 @@ public:
         return virtual_.empty() ? f(direct_) : f(forest_);
     }
 
-private:
+protected:
     lightcuts::LightTree<lightcuts::OmniLight<>> omni_;
     lightcuts::LightTree<lightcuts::OrientedPointLight<>> oriented_;
     lightcuts::LightTree<lightcuts::SpotLight<>> spots_;
     lightcuts::LightTree<lightcuts::DistantLight<>> directional_;
     lightcuts::LightTree<lightcuts::SpherePointLight<>> spheres_;
     lightcuts::LightTree<lightcuts::VirtualPointLight<>> virtual_;
+
+private:
     DirectForest direct_{omni_, oriented_, spots_, directional_, spheres_};
     Forest forest_{omni_, oriented_, spots_, directional_, spheres_, virtual_};
+};
+
+/// The light trees of a scene in which lights move: those of `SceneLights`, and one for each kind of light that exists
+/// at one instant.
+class InstantSceneLights : private SceneLights {
+public:
+    template <class L>
+    using At = lightcuts::InstantLight<L>;
+    using Forest = lightcuts::TimedForest<
+        lightcuts::OmniLight<>, lightcuts::OrientedPointLight<>, lightcuts::SpotLight<>, lightcuts::DistantLight<>,
+        lightcuts::SpherePointLight<>, lightcuts::VirtualPointLight<>, At<lightcuts::OmniLight<>>,
+        At<lightcuts::OrientedPointLight<>>, At<lightcuts::SpotLight<>>, At<lightcuts::DistantLight<>>,
+        At<lightcuts::SpherePointLight<>>, At<lightcuts::VirtualPointLight<>>>;
+    static constexpr std::uint32_t oriented_kind = 7;
+    static constexpr std::uint32_t sphere_kind = 10;
+    static constexpr std::uint32_t virtual_kind = 11;
+
+    /// `scene` must outlive this object. throws: lightcuts::invalid_input for a light that cannot be used.
+    InstantSceneLights(const Scene& scene, const Options& options);
+
+    const Forest& forest() const { return forest_; }
+
+private:
+    lightcuts::LightTree<At<lightcuts::OmniLight<>>> omni_at_;
+    lightcuts::LightTree<At<lightcuts::OrientedPointLight<>>> oriented_at_;
+    lightcuts::LightTree<At<lightcuts::SpotLight<>>> spots_at_;
+    lightcuts::LightTree<At<lightcuts::DistantLight<>>> directional_at_;
+    lightcuts::LightTree<At<lightcuts::SpherePointLight<>>> spheres_at_;
+    lightcuts::LightTree<At<lightcuts::VirtualPointLight<>>> virtual_at_;
+    Forest forest_;
 };
 
 }  // namespace render

@@ -14,6 +14,7 @@
 #include <lightcuts/visibility/query.hpp>
 
 #include "lights/scene_lights.hpp"
+#include "motion.hpp"
 #include "rays/ray_scene.hpp"
 #include "scene.hpp"
 
@@ -40,10 +41,15 @@ inline glm::vec3 end_before_sphere(const Scene& scene, const glm::vec3& from,
                                    const lightcuts::SpherePointLight<>& light) {
     return end_before_point(from, lightcuts::shadow_end(scene.spheres[light.sphere], from, light.position));
 }
+inline glm::vec3 end_before_sphere(const Scene& scene, const glm::vec3& from,
+                                   const lightcuts::InstantLight<lightcuts::SpherePointLight<>>& light) {
+    const lightcuts::SphereLight<>& sphere = scene.at_instants.spheres[light.sphere];
+    return end_before_point(from, lightcuts::shadow_end(sphere, from, light.position));
+}
 
 template <lightcuts::PointLight L>
 glm::vec3 shadow_end(const Scene& scene, const glm::vec3& from, const L& light) {
-    if constexpr (std::same_as<L, lightcuts::SpherePointLight<>>) {
+    if constexpr (std::derived_from<L, lightcuts::SpherePointLight<>>) {
         return end_before_sphere(scene, from, light);
     } else if constexpr (std::derived_from<L, lightcuts::OrientedPointLight<>>) {
         return end_before_surface(from, light.position, light.axis);
@@ -60,11 +66,17 @@ inline glm::vec3 shadow_end(const Scene& scene, const lightcuts::VisibilityQuery
         case SceneLights::virtual_kind:
             return end_before_surface(query.from, query.to, scene.virtual_lights[query.light].axis);
         case SceneLights::sphere_kind: return end_before_sphere(scene, query.from, scene.sphere_points[query.light]);
+        case InstantSceneLights::oriented_kind:
+            return end_before_surface(query.from, query.to, scene.at_instants.oriented[query.light].axis);
+        case InstantSceneLights::sphere_kind:
+            return end_before_sphere(scene, query.from, scene.at_instants.sphere_points[query.light]);
+        case InstantSceneLights::virtual_kind:
+            return end_before_surface(query.from, query.to, scene.at_instants.virtual_lights[query.light].axis);
         default: return end_before_point(query.from, query.to);
     }
 }
 
-/// Visibility through fog and surfaces that let light pass, tinted by them.
+/// Visibility through fog and surfaces that let light pass, tinted by them, at the time of the receiver.
 class TransmissiveOracle {
 public:
     TransmissiveOracle(const Scene& scene, const RayScene& rays) : scene_(scene), rays_(rays) {}
@@ -73,11 +85,12 @@ public:
     glm::vec3 operator()(const R& receiver, const L& light) const {
         const glm::vec3 from = receiver.shadow_origin;
         const glm::vec3 place = lightcuts::position_or_direction(light);
+        const float time = time_of_receiver(scene_, receiver.id);
         if constexpr (lightcuts::DirectionalLight<L>) {
-            return rays_.to_infinity(from, place) * scene_.fog.medium.transmittance_to_infinity(from, place);
+            return rays_.to_infinity(from, place, time) * scene_.fog.medium.transmittance_to_infinity(from, place);
         } else {
             const glm::vec3 end = shadow_end(scene_, from, light);
-            const glm::vec3 tint = end == from ? glm::vec3(1.0f) : rays_.to_point(from, end);
+            const glm::vec3 tint = end == from ? glm::vec3(1.0f) : rays_.to_point(from, end, time);
             return tint * scene_.fog.medium.transmittance(from, place);
         }
     }
@@ -87,7 +100,7 @@ private:
     const RayScene& rays_;
 };
 
-/// Visibility among opaque surfaces and through fog, by streams of plain Embree rays.
+/// Visibility among opaque surfaces and through fog, at the time of the receiver, by streams of plain Embree rays.
 class OpaqueOracle {
 public:
     OpaqueOracle(const Scene& scene, const RayScene& rays)
@@ -96,18 +109,20 @@ public:
     template <class R, lightcuts::Light L>
     float operator()(const R& receiver, const L& light) const {
         const glm::vec3 from = receiver.shadow_origin, place = lightcuts::position_or_direction(light);
+        const float time = time_of_receiver(scene_, receiver.id);
         if constexpr (lightcuts::DirectionalLight<L>) {
-            return embree_(receiver, light) ? scene_.fog.medium.transmittance_to_infinity(from, place) : 0.0f;
+            return embree_(receiver, light, time) ? scene_.fog.medium.transmittance_to_infinity(from, place) : 0.0f;
         } else {
             const glm::vec3 end = shadow_end(scene_, from, light);
-            const bool visible = end == from || embree_(receiver, lightcuts::OmniLight<>{end, {}, {}});
+            const bool visible = end == from || embree_(receiver, lightcuts::OmniLight<>{end, {}, {}}, time);
             return visible ? scene_.fog.medium.transmittance(from, place) : 0.0f;
         }
     }
 
     void many(std::span<const lightcuts::VisibilityQuery> queries, std::span<float> answers) const {
-        embree_.many(queries, answers,
-                     [this](const lightcuts::VisibilityQuery& query) { return shadow_end(scene_, query); });
+        embree_.many(
+            queries, answers, [this](const lightcuts::VisibilityQuery& query) { return shadow_end(scene_, query); },
+            [this](const lightcuts::VisibilityQuery& query) { return time_of_receiver(scene_, query.receiver); });
         if (scene_.fog.is_there()) lightcuts::attenuate(scene_.fog.medium, queries, answers);
     }
 

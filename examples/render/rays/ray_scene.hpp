@@ -18,6 +18,7 @@ struct Hit {
     float u = 0;
     float v = 0;
     float distance = 0;
+    float time = 0;  ///< of the ray
 };
 
 /// How a scene is put into the ray tracer.
@@ -29,8 +30,9 @@ struct RayOptions {
 };
 
 /// A scene's triangles in Embree. Triangles that let light pass (transmission, alpha) lie in a geometry of their own
-/// with filter functions; the others never meet a filter, and a scene without transmissive surfaces has none.
-/// threads: all queries may run at once.
+/// with filter functions; the others never meet a filter, and a scene without transmissive surfaces has none. What
+/// moves lies in further geometries; rays have a `time`, from 0 as the shutter opens to 1 as it closes. threads: all
+/// queries may run at once.
 class RayScene {
 public:
     /// `scene` must outlive this object. throws std::runtime_error if Embree fails.
@@ -40,7 +42,7 @@ public:
     RayScene& operator=(const RayScene&) = delete;
 
     /// Nearest surface along the unit `direction`; passes where an alpha mask has a hole.
-    std::optional<Hit> nearest(const glm::vec3& origin, const glm::vec3& direction) const;
+    std::optional<Hit> nearest(const glm::vec3& origin, const glm::vec3& direction, float time = 0.0f) const;
 
     /// True iff some surface passes light. Then shadow rays go through `to_point` and `to_infinity`; otherwise
     /// plain occlusion queries of `embree_scene()` (single, packets or streams) answer the same.
@@ -49,10 +51,10 @@ public:
     /// Share of light that travels between two points, each channel in [0, 1]: the product of the tints of the layers
     /// between them. What lies in one place is one layer, as for eye rays that go on from there at the distance of
     /// `SurfaceGeometry::leave`; the least transmitting counts. The ray stops a few steps of a float short of `to`.
-    glm::vec3 to_point(const glm::vec3& from, const glm::vec3& to) const;
+    glm::vec3 to_point(const glm::vec3& from, const glm::vec3& to, float time = 0.0f) const;
 
     /// The same towards infinity; `direction` leads away from `from`.
-    glm::vec3 to_infinity(const glm::vec3& from, const glm::vec3& direction) const;
+    glm::vec3 to_infinity(const glm::vec3& from, const glm::vec3& direction, float time = 0.0f) const;
 
     /// For occlusion queries by others. pre: `!transmissive()`, as the filters expect a context of this class.
     RTCScene embree_scene() const { return scene_; }
@@ -66,15 +68,14 @@ private:
     static void skip_holes(const RTCFilterFunctionNArguments* arguments);
     static void pass_light(const RTCFilterFunctionNArguments* arguments);
 
-    void add_geometry(const std::vector<std::uint32_t>& triangles, bool with_filters);
-    glm::vec3 pass(const glm::vec3& from, const glm::vec3& direction, float end) const;
+    void add_geometry(std::vector<std::uint32_t> triangles, bool with_filters, const MovingVertices* motion = nullptr);
+    glm::vec3 pass(const glm::vec3& from, const glm::vec3& direction, float end, float time) const;
 
     const Scene& source_;
     RayTracer tracer_;
     RTCScene scene_ = nullptr;
     bool transmissive_ = false;
-    std::vector<std::uint32_t> opaque_;       ///< triangle of each primitive of geometry 0
-    std::vector<std::uint32_t> translucent_;  ///< triangle of each primitive of geometry 1
+    std::vector<std::vector<std::uint32_t>> triangles_;  ///< of each geometry, by primitive
 };
 
 }  // namespace render

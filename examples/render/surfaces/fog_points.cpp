@@ -33,6 +33,7 @@ float add_fog_points(const Fog& fog, const RaySegment& segment, std::uint32_t& v
         point.pixel = segment.pixel;
         point.sample = segment.sample;
         point.vertex = vertex;
+        point.instant = segment.instant;
         points.push_back(point);
     }
     return transmittance;

@@ -19,6 +19,7 @@ struct RaySegment {
     glm::vec3 weight{1.0f};     ///< share of its light in the eye ray's
     std::uint32_t pixel = 0;
     std::uint32_t sample = 0;
+    std::uint32_t instant = 0;
 };
 
 /// Appends the points at which fog scatters light into an eye ray: of equal weight, at equal steps of what the fog

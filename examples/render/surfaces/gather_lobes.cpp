@@ -5,7 +5,6 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <lightcuts/core/random.hpp>
 #include <lightcuts/material/above_horizon.hpp>
 
 namespace render {
@@ -81,26 +80,26 @@ void GatherPoints::clear() {
     shadow_offset = 0.0f;
 }
 
-void GatherPoints::add(const SurfacePoint& p, float share) {
-    const std::uint64_t hash = lightcuts::hash_keys(p.pixel, p.sample, p.vertex);
-    const auto name = static_cast<std::uint32_t>(hash);
+void GatherPoints::add(const SurfacePoint& p, float share, std::uint32_t name) {
     const glm::vec3 weight = p.weight * share;
     shadow_offset = std::max(shadow_offset, glm::length(p.ray_origin - p.position));
     if (p.model == SurfacePoint::Model::volume) {
         const lightcuts::HenyeyGreenstein<> phase(p.to_viewer, glm::vec3(1.0f), p.shininess);
-        fog.push_back({{p.position, phase, p.ray_origin, name}, weight});
+        fog.push_back({{{p.position, phase, p.ray_origin, name}, weight}, p.instant});
         return;
     }
     if (p.diffuse != black) {
         diffuse.push_back(
-            {{p.position, {p.shading_normal, p.geometric_normal}, p.ray_origin, name}, weight * p.diffuse});
+            {{{p.position, {p.shading_normal, p.geometric_normal}, p.ray_origin, name}, weight * p.diffuse},
+             p.instant});
     }
     if (p.transmitted != black) {
         const glm::vec3 behind = p.position + (p.position - p.ray_origin);
         diffuse.push_back(
-            {{p.position, {-p.shading_normal, -p.geometric_normal}, behind, name}, weight * p.transmitted});
+            {{{p.position, {-p.shading_normal, -p.geometric_normal}, behind, name}, weight * p.transmitted},
+             p.instant});
     }
-    if (has_gloss(p)) glossy.push_back({{p.position, GlossyLobe(p), p.ray_origin, name}, weight});
+    if (has_gloss(p)) glossy.push_back({{{p.position, GlossyLobe(p), p.ray_origin, name}, weight}, p.instant});
 }
 
 }  // namespace render

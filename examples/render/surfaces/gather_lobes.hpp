@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <variant>
 #include <vector>
 
@@ -53,10 +54,9 @@ private:
     std::variant<lightcuts::ModifiedPhong<>, lightcuts::Ggx<>> lobe_;
 };
 
-using DiffuseGatherPoint = lightcuts::GatherPoint<DiffuseLobe>;
-using GlossyGatherPoint = lightcuts::GatherPoint<GlossyLobe>;
-
-using FogGatherPoint = lightcuts::GatherPoint<lightcuts::HenyeyGreenstein<>>;
+using DiffuseGatherPoint = lightcuts::InstantGatherPoint<DiffuseLobe>;
+using GlossyGatherPoint = lightcuts::InstantGatherPoint<GlossyLobe>;
+using FogGatherPoint = lightcuts::InstantGatherPoint<lightcuts::HenyeyGreenstein<>>;
 
 /// Gather points by the type of their lobes.
 struct GatherPoints {
@@ -66,8 +66,8 @@ struct GatherPoints {
     float shadow_offset = 0.0f;  ///< the largest distance of a shadow ray's origin from its point
 
     void clear();
-    /// Adds one for each lobe of `point`, of its weight times `share`.
-    void add(const SurfacePoint& point, float share);
+    /// Adds one for each lobe of `point`, of its weight times `share`. `name`: the receiver's id.
+    void add(const SurfacePoint& point, float share, std::uint32_t name);
 };
 
 }  // namespace render

@@ -6,7 +6,9 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <lightcuts/core/random.hpp>
 
+#include "shutter.hpp"
 #include "surfaces/fog_points.hpp"
 #include "surfaces/surface_colors.hpp"
 #include "surfaces/surface_geometry.hpp"
@@ -45,21 +47,28 @@ bool is_worth_following(const Branch& branch) {
 
 }  // namespace
 
+std::uint32_t receiver_name(const Scene& scene, const SurfacePoint& point) {
+    const std::uint64_t name = lightcuts::hash_keys(point.pixel, point.sample, point.vertex);
+    return name_with_instant(static_cast<std::uint32_t>(name), point.instant, scene.instants.size());
+}
+
 EyeRaySeen EyePathTracer::follow(const EyeRay& ray, std::uint32_t pixel, std::uint32_t sample,
                                  std::vector<SurfacePoint>& points) const {
     EyeRaySeen seen;
     seen.depth = std::numeric_limits<float>::infinity();
     std::uint32_t vertex = 0;
+    const float time = scene_.is_still() ? 0.0f : scene_.instants[ray.instant];
     std::vector<Branch> open;
     open.push_back({ray.origin, ray.direction, glm::vec3(1.0f), 0.0f, 0, 0});
     for (bool first = true; !open.empty(); first = false) {
         Branch at = open.back();
         open.pop_back();
-        const auto hit = rays_.nearest(at.origin, at.direction);
+        const auto hit = rays_.nearest(at.origin, at.direction, time);
         if (scene_.fog.is_there()) {
             const float length = hit ? hit->distance : std::numeric_limits<float>::infinity();
-            at.weight *= add_fog_points(
-                scene_.fog, {at.origin, at.direction, length, at.traveled, at.weight, pixel, sample}, vertex, points);
+            const RaySegment segment{at.origin, at.direction, length, at.traveled,
+                                     at.weight, pixel,        sample, ray.instant};
+            at.weight *= add_fog_points(scene_.fog, segment, vertex, points);
         }
         if (!hit) {
             seen.emitted += at.weight * scene_.background.radiance(at.direction);
@@ -94,6 +103,7 @@ EyeRaySeen EyePathTracer::follow(const EyeRay& ray, std::uint32_t pixel, std::ui
         point.pixel = pixel;
         point.sample = sample;
         point.vertex = vertex++;
+        point.instant = ray.instant;
         points.push_back(point);
     }
     return seen;

@@ -24,7 +24,12 @@ struct SurfacePoint : SurfaceLobes {
     std::uint32_t pixel = 0;           ///< y * width + x
     std::uint32_t sample = 0;          ///< eye ray within the pixel
     std::uint32_t vertex = 0;          ///< point of the eye ray: 0, and more behind mirrors, glass and leaves
+    std::uint32_t instant = 0;         ///< of the eye ray
 };
+
+/// The id of the receiver at a point: a hash of it, so that random choices differ between pixels, eye rays and the
+/// points of one eye ray, and in its lowest bits the instant, which tells oracles when to look.
+std::uint32_t receiver_name(const Scene& scene, const SurfacePoint& point);
 
 /// What an eye ray met besides points to be shaded.
 struct EyeRaySeen {

@@ -5,6 +5,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "motion.hpp"
 #include "surfaces/surface_colors.hpp"
 #include "triangle.hpp"
 
@@ -27,10 +28,7 @@ glm::vec3 bend_to_viewer(const glm::vec3& normal, const glm::vec3& to_viewer) {
 /// The interpolated vertex normal, on the side of `face`; that itself where there is none.
 glm::vec3 smooth_normal(const Scene& scene, const Hit& hit, const glm::vec3& face) {
     if (scene.normals.empty()) return face;
-    const glm::uvec3 t = scene.triangles[hit.triangle];
-    const glm::vec3& na = scene.normals[t.x];
-    const glm::vec3& nb = scene.normals[t.y];
-    const glm::vec3& nc = scene.normals[t.z];
+    const auto [na, nb, nc] = normals_at(scene, hit.triangle, hit.time);
     const glm::vec3 zero(0.0f);
     const glm::vec3 smooth = (1.0f - hit.u - hit.v) * na + hit.u * nb + hit.v * nc;
     const float size = glm::length(smooth);
@@ -46,8 +44,8 @@ bool find_tangents(const Scene& scene, const Hit& hit, const Triangle& face, con
     glm::vec3 tangent(0.0f);
     float side = 1.0f;
     if (!scene.tangents.empty()) {
-        const glm::vec4 mean = (1.0f - hit.u - hit.v) * scene.tangents[t.x] + hit.u * scene.tangents[t.y] +
-                               hit.v * scene.tangents[t.z];
+        const auto [ta, tb, tc] = tangents_at(scene, hit.triangle, hit.time);
+        const glm::vec4 mean = (1.0f - hit.u - hit.v) * ta + hit.u * tb + hit.v * tc;
         tangent = glm::vec3(mean);
         side = mean.w < 0.0f ? -1.0f : 1.0f;
     }
@@ -97,7 +95,7 @@ glm::vec3 SurfaceGeometry::reflect(const glm::vec3& direction) const {
 }
 
 SurfaceGeometry surface_at(const Scene& scene, const Hit& hit, const glm::vec3& direction) {
-    const Triangle face(scene, hit.triangle);
+    const Triangle face = triangle_at(scene, hit.triangle, hit.time);
     const glm::dvec3 position = face.at(static_cast<double>(hit.u), static_cast<double>(hit.v));
 
     SurfaceGeometry s;

@@ -23,8 +23,9 @@ struct SurfaceGeometry {
     glm::vec3 reflect(const glm::vec3& direction) const;
 };
 
-/// The surface at `hit` of a ray along the unit `direction`. The shading normal is that of the vertices, bent by the
-/// material's normal map; where it faces away from the viewer near silhouettes it is bent until it does not.
+/// The surface at `hit` of a ray along the unit `direction`, where it is at the ray's time. The shading normal is that
+/// of the vertices, bent by the material's normal map; where it faces away from the viewer near silhouettes it is bent
+/// until it does not.
 SurfaceGeometry surface_at(const Scene& scene, const Hit& hit, const glm::vec3& direction);
 
 }  // namespace render

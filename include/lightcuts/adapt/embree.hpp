@@ -28,11 +28,12 @@ public:
     /// a light on a surface is not hidden by that surface; in [0, 1). Rays towards distant lights have no end.
     explicit EmbreeOracle(RTCScene scene, float shorten = 1e-4f) : scene_(scene), reach_(1.0f - shorten) {}
 
-    /// True if nothing stands between `receiver.shadow_origin` and `light`. cost: one ray
+    /// True if nothing stands between `receiver.shadow_origin` and `light` at `time`, 0 to 1, where geometry moves.
+    /// cost: one ray
     template <class R, Light L>
-    bool operator()(const R& receiver, const L& light) const {
+    bool operator()(const R& receiver, const L& light, float time = 0.0f) const {
         RTCRay ray;
-        aim(ray, receiver.shadow_origin, position_or_direction(light), DirectionalLight<L>);
+        aim(ray, receiver.shadow_origin, position_or_direction(light), DirectionalLight<L>, time);
         return !occluded(ray);
     }
 
@@ -48,13 +49,20 @@ public:
     /// nothing. Streams are those of `many` without `end_of`. pre: answers.size() >= queries.size()
     template <class EndOf>
     void many(std::span<const VisibilityQuery> queries, std::span<float> answers, const EndOf& end_of) const {
+        many(queries, answers, end_of, [](const VisibilityQuery&) { return 0.0f; });
+    }
+    /// As `many` with `end_of`, where geometry moves: `time_of(query)`, 0 to 1, is the time at which the ray of a query
+    /// is traced. A query says of which receiver it is; the caller knows that one's time.
+    template <class EndOf, class TimeOf>
+    void many(std::span<const VisibilityQuery> queries, std::span<float> answers, const EndOf& end_of,
+              const TimeOf& time_of) const {
         constexpr std::size_t stream = 256;
         RTCRay rays[stream];
         for (std::size_t begin = 0; begin < queries.size(); begin += stream) {
             const std::size_t count = (std::min)(stream, queries.size() - begin);
             for (std::size_t i = 0; i < count; ++i) {
                 const VisibilityQuery& q = queries[begin + i];
-                aim(rays[i], q.from, q.distant ? q.to : end_of(q), q.distant);
+                aim(rays[i], q.from, q.distant ? q.to : end_of(q), q.distant, time_of(q));
             }
             occluded(rays, count);
             for (std::size_t i = 0; i < count; ++i) answers[begin + i] = rays[i].tfar < 0.0f ? 0.0f : 1.0f;
@@ -63,7 +71,7 @@ public:
 
 private:
     /// Sets up `ray`, field by field: copying a whole ray right after its fields were written stalls the processor.
-    void aim(RTCRay& ray, const glm::vec3& from, const glm::vec3& to, bool distant) const {
+    void aim(RTCRay& ray, const glm::vec3& from, const glm::vec3& to, bool distant, float time) const {
         const glm::vec3 direction = distant ? to : to - from;
         ray.org_x = from.x;
         ray.org_y = from.y;
@@ -73,7 +81,7 @@ private:
         ray.dir_x = direction.x;
         ray.dir_y = direction.y;
         ray.dir_z = direction.z;
-        ray.time = 0.0f;
+        ray.time = time;
         ray.tfar = distant ? std::numeric_limits<float>::infinity() : reach_;
         ray.mask = ~0u;
         ray.id = 0;

@@ -17,6 +17,7 @@ using render::SceneLights;
 
 struct Receiver {
     glm::vec3 shadow_origin;
+    std::uint32_t id = 0;
 };
 
 /// A level square, seen from above or below.
