@@ -36,6 +36,7 @@ struct FixedScene {
 };
 constexpr std::array fixed_scenes{FixedScene{"hall", builtin_hall, "--area-points"},
                                   FixedScene{"tableau", builtin_tableau, "--env-lights"},
+                                  FixedScene{"wheel", builtin_wheel, "--env-lights"},
                                   FixedScene{"colonnade", builtin_colonnade, "--sky-lights and --indirect"},
                                   FixedScene{"screens", builtin_screens, "--area-points for its two ceiling panels"},
                                   FixedScene{"test-card", builtin_test_card, "--area-points for its glowing tiles"}};
@@ -115,7 +116,7 @@ Scene load_scene(std::string_view path_or_builtin, const Shutter& shutter) {
 }
 
 std::vector<std::string> builtin_names() {
-    return {"hall", "omni", "directional", "surfaces", "tableau", "colonnade", "screens", "test-card"};
+    return {"hall", "omni", "directional", "surfaces", "tableau", "wheel", "colonnade", "screens", "test-card"};
 }
 
 }  // namespace render

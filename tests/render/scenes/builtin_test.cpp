@@ -21,7 +21,7 @@ using testing::HasSubstr;
 
 TEST(Builtin, AllLoadWithCameras) {
     EXPECT_EQ(render::builtin_names(), (std::vector<std::string>{"hall", "omni", "directional", "surfaces", "tableau",
-                                                                 "colonnade", "screens", "test-card"}));
+                                                                 "wheel", "colonnade", "screens", "test-card"}));
     for (const std::string& name : render::builtin_names()) {
         const Scene s = load_scene("builtin:" + name);
         EXPECT_EQ(s.name, "builtin:" + name);
@@ -88,7 +88,7 @@ TEST(Builtin, PowerDoesNotDependOnTheCount) {
 
 TEST(Builtin, AreDeterministic) {
     for (const std::string name : {"hall", "omni?lights=500", "directional?lights=500", "surfaces?lights=500",
-                                   "tableau", "colonnade", "screens", "test-card"}) {
+                                   "tableau", "wheel", "colonnade", "screens", "test-card"}) {
         const Scene a = load_scene("builtin:" + name);
         const Scene b = load_scene("builtin:" + name);
         EXPECT_EQ(a.positions, b.positions);
