@@ -1,6 +1,6 @@
 // One sum over many points and many lights, without a camera: the mean irradiance of each texel of a coarse light map.
-// A texel is 256 points of the floor, of a hundred thousand lights each; a few hundred pairs of clusters tell what the
-// 26 million pairs come to.
+// A texel is 256 points of the floor, of a hundred thousand lights each; some hundreds of pairs of clusters tell what
+// the 26 million pairs come to.
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -43,7 +43,7 @@ int main() {
         lantern.position = {uniform(-8.0f, 16.0f), uniform(-8.0f, 16.0f), uniform(3.0f, 6.0f)};
         lantern.intensity = uniform(0.5f, 1.5f) * glm::vec3(1.0f, 0.7f, 0.4f);  // W/sr
     }
-    // Each pair of clusters draws its representatives, of up to 32 on either side.
+    // Each pair of clusters draws a light of its own, of up to 32 that may stand for a cluster.
     const lightcuts::LightTree tree(lanterns, {.representatives = 32});
     Balloons visible;
     for (int i = 0; i < 12; ++i) visible.centers.push_back({uniform(0, edge), uniform(0, edge), uniform(0.6f, 2.0f)});
@@ -72,7 +72,7 @@ int main() {
             const auto texel = lightcuts::gather(tree, points_of_texel, visible, scratch, options);
             queries += texel.queries;
 
-            // For comparison, an independent lightcut for each point, with a tenth of the error.
+            // For comparison, an independent lightcut for each point.
             glm::vec3 mean(0.0f);
             for (const Point& p : points) {
                 mean += p.strength * lightcuts::shade(tree, p.receiver, visible, {.error_ratio = 0.002f}).radiance;

@@ -43,7 +43,6 @@ public:
         lightcuts::Box box;
         for (const glm::vec3& p : scene.positions) box = lightcuts::merge(box, lightcuts::box_of(p));
         tree_.scene_diagonal = std::sqrt(lightcuts::diagonal2(box));
-        tree_.seed = options.seed;
         if constexpr (std::same_as<Lights, InstantSceneLights>) tree_.instants = forest.instants();
         adapt(options.adaptation.value_or(0.0f));
     }
@@ -72,9 +71,7 @@ public:
         auto& own = static_cast<PairScratch&>(scratch);
         own.points.clear();
         for (const SurfacePoint& p : points) own.points.add(p, share, receiver_name(scene_, p));
-        lightcuts::GatherTreeOptions tree = tree_;
-        tree.seed = lightcuts::hash_keys(tree_.seed, points.front().pixel);
-        own.trees.build(own.points.diffuse, own.points.glossy, own.points.fog, tree);
+        own.trees.build(own.points.diffuse, own.points.glossy, own.points.fog, tree_);
         lightcuts::ProductOptions product = product_;
         product.id = points.front().pixel;
         Shading shading;

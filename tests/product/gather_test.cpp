@@ -145,9 +145,7 @@ TEST(Gather, EstimateOfAFixedCutIsUnbiasedOverSeeds) {
         for (const unsigned several : {1u, 32u}) {
             expect_mean(truth, [&](std::uint64_t seed) {
                 const LightTree tree(scene.lights, {.representatives = several, .seed = hash_keys(9, seed)});
-                return gather(tree, scene.points, oracle, fixed_cut(seed, redraw),
-                              {.seed = hash_keys(8, seed)})
-                    .radiance;
+                return gather(tree, scene.points, oracle, fixed_cut(seed, redraw)).radiance;
             });
         }
     }
@@ -170,11 +168,10 @@ TEST(Gather, EstimateOfAFixedCutOverInstantsIsUnbiasedOverSeeds) {
     }
     const LightTree tree(lights);
     const LightForest forest(tree);
+    const TimedForest timed(forest, 4);
     for (const bool redraw : {false, true}) {
-        expect_mean(truth, [&](std::uint64_t seed) {
-            const TimedForest timed(forest, 4, hash_keys(9, seed));
-            return gather(timed, points, oracle, fixed_cut(seed, redraw), {.seed = hash_keys(8, seed)}).radiance;
-        });
+        expect_mean(
+            truth, [&](std::uint64_t seed) { return gather(timed, points, oracle, fixed_cut(seed, redraw)).radiance; });
     }
 }
 
@@ -190,7 +187,7 @@ TEST(Gather, OfOnePointIsItsLightcut) {
         const LightcutOptions options{.max_cut = 300};
         const auto cut = shade(tree, p.receiver, oracle, options);
         const auto result = gather(tree, std::vector{p}, oracle, ProductOptions{.cut = options});
-        EXPECT_EQ(result.radiance, cut.radiance * p.strength);
+        for (int c = 0; c < 3; ++c) EXPECT_FLOAT_EQ(result.radiance[c], cut.radiance[c] * p.strength[c]);
         EXPECT_EQ(result.cut_size, cut.cut_size);
         EXPECT_EQ(result.queries, cut.queries);
         EXPECT_EQ(result.pairs, 500.0);
@@ -213,6 +210,126 @@ TEST(Gather, SeparatePointsAreACutToo) {
     EXPECT_LT(together.cut_size, separate.cut_size);
 }
 
+/// Whether a point is in the shadow of everything, by a hash of its id.
+struct RandomShadow {
+    template <class R, class L>
+    bool operator()(const R& receiver, const L&) const {
+        return mix_bits(receiver.id) % 2 == 0;
+    }
+};
+
+/// Where instants do not matter, the error is what it is without them: pairs of a cluster do not share one point.
+TEST(Gather, ErrorDoesNotDependOnTheNumberOfInstants) {
+    Random random(7);
+    Room<V> room(7);
+    const auto lights = room.omni(800);
+    auto points = diffuse_points(random, 200, 0.1, 0.3);
+    for (auto& p : points) p.strength = V(0.005f);
+    const LightTree plain(lights, {.representatives = 32});
+    const auto error_over_ids = [&](const auto& tree, const auto& of, const auto& all, double truth) {
+        double squares = 0.0;
+        constexpr std::uint32_t ids = 40;
+        for (std::uint32_t id = 0; id < ids; ++id) {
+            const auto result = gather(tree, of, RandomShadow{}, ProductOptions{.id = id}, all);
+            const double off = static_cast<double>(result.radiance.x) / truth - 1.0;
+            squares += off * off / ids;
+        }
+        return std::sqrt(squares);
+    };
+    const double untimed = error_over_ids(plain, points, GatherTreeOptions{},
+                                          sum_of_pairs(points, lights, RandomShadow{}).x);
+    EXPECT_GT(untimed, 0.0);
+    // All at the first of two instants.
+    std::vector<InstantLight<OmniLight<V>>> timed_lights;
+    for (const auto& l : lights) timed_lights.push_back({l, 0});
+    std::vector<InstantGatherPoint<Lambert<V>, V>> timed_points;
+    for (const auto& p : points) timed_points.push_back({p, 0});
+    const LightTree tree(timed_lights);
+    const LightForest forest(tree);
+    const TimedForest timed(forest, 2);
+    const double of_instants = error_over_ids(timed, timed_points, GatherTreeOptions{},
+                                              sum_of_pairs(timed_points, timed_lights, RandomShadow{}).x);
+    EXPECT_LT(of_instants, 2.0 * untimed);
+    EXPECT_GT(of_instants, 0.5 * untimed);
+}
+
+TEST(Gather, ChoicesOfDifferentIdsDiffer) {
+    Random random(9);
+    Room<V> room(9);
+    const auto lights = room.omni(800);
+    const LightTree tree(lights, {.representatives = 8});
+    const auto points = diffuse_points(random, 20, 0.1, 0.3);
+    std::vector<DiffusePoint> one{points[0]};
+    one[0].strength = V(1.0f);
+    for (const auto& some : {points, one}) {
+        EXPECT_NE(gather(tree, some, AlwaysVisible{}, ProductOptions{.id = 0}).radiance,
+                  gather(tree, some, AlwaysVisible{}, ProductOptions{.id = 1}).radiance);
+    }
+}
+
+TEST(Gather, InstantsOfLightsAndPointsHaveToAgree) {
+    Random random(9);
+    Room<V> room(9);
+    const auto lights = at_instants(room.omni(80), 8);
+    const LightTree tree(lights);
+    const LightForest forest(tree);
+    const TimedForest timed(forest, 8);
+    const auto points = at_instants(diffuse_points(random, 20, 0.1, 0.3), 8);
+    GatherForest<InstantGatherPoint<Lambert<V>, V>> trees;
+    gather_scratch_of<decltype(timed)> scratch;
+    trees.build(points, {});
+    EXPECT_THROW(gather(timed, trees, AlwaysVisible{}, scratch), invalid_input);
+    // What cannot be built leaves nothing to be gathered.
+    trees.build(points, {.instants = 8});
+    EXPECT_NE(gather(timed, trees, AlwaysVisible{}, scratch).radiance, V(0.0f));
+    EXPECT_THROW(trees.build(points, {.instants = 4}), invalid_input);
+    EXPECT_EQ(trees.point_count(), 0u);
+}
+
+TEST(Gather, CutsAreNoLargerThanAskedFor) {
+    Random random(4);
+    Room<V> room(4);
+    const auto lights = room.oriented(300);
+    const LightTree tree(lights);
+    for (const std::size_t count : {8u, 20u}) {
+        const auto points = diffuse_points(random, count, 0.2, 0.5);
+        for (const std::size_t most : {1u, 10u, 100u}) {
+            const ProductOptions options{.cut = {.error_ratio = 0.001f, .max_cut = most, .exhaustive_below = 10'000}};
+            const auto result = gather(tree, points, AlwaysVisible{}, options);
+            EXPECT_LE(result.cut_size, most);
+            EXPECT_EQ(result.stop, StopReason::limit);
+        }
+        ProductOptions separate{.cut = {.error_ratio = 0.05f, .max_cut = 100}, .separate_points = true};
+        EXPECT_LE(gather(tree, points, AlwaysVisible{}, separate).cut_size, 100u);
+    }
+}
+
+TEST(Gather, RedrawingLeavesSinglePairsAlone) {
+    Random random(4);
+    Room<V> room(4);
+    const auto lights = room.oriented(20);
+    const LightTree tree(lights);
+    const auto occluders = room.occluders();
+    const auto points = diffuse_points(random, 10, 0.2, 0.5);
+    ProductOptions options{.cut = {.exhaustive_below = 1000}};
+    const auto once = gather(tree, points, ScalarOccluders{occluders}, options);
+    options.redraw = true;
+    const auto again = gather(tree, points, ScalarOccluders{occluders}, options);
+    EXPECT_EQ(once.queries, again.queries);
+    EXPECT_EQ(once.radiance, again.radiance);
+}
+
+TEST(Gather, TightBoundsAreAskedForIfWanted) {
+    Random random(4);
+    Room<V> room(4);
+    const auto lights = room.oriented(300);
+    const LightTree tree(lights);
+    const auto points = diffuse_points(random, 20, 0.2, 0.5);
+    const auto loose = gather(tree, points, AlwaysVisible{});
+    const auto tight = gather(tree, points, AlwaysVisible{}, {}, {}, TwoStageBounds{.tight_band = 3.0});
+    EXPECT_LT(tight.cut_size, loose.cut_size);
+}
+
 TEST(Gather, BatchedAndScalarOraclesAgree) {
     Random random(6);
     Room<V> room(6);
@@ -225,26 +342,6 @@ TEST(Gather, BatchedAndScalarOraclesAgree) {
     EXPECT_EQ(scalar.radiance, batched.radiance);
     EXPECT_EQ(scalar.error_bound, batched.error_bound);
     EXPECT_EQ(scalar.queries, batched.queries);
-}
-
-TEST(Gather, NothingAllocatesOnceWarm) {
-    // See allocation_test.cpp of cuts, which counts; here storage stays where it is.
-    Random random(8);
-    Room<V> room(8);
-    const auto lights = room.oriented(300);
-    const LightTree tree(lights);
-    const auto points = diffuse_points(random, 64, 0.2, 0.5);
-    GatherForest<DiffusePoint> forest;
-    gather_scratch_of<LightTree<OrientedPointLight<V>>> scratch;
-    forest.build(points, {});
-    const auto first = gather(tree, forest, AlwaysVisible{}, scratch);
-    const std::size_t capacity = scratch.refinement.capacity();
-    for (int i = 0; i < 3; ++i) {
-        forest.build(points, {});
-        const auto again = gather(tree, forest, AlwaysVisible{}, scratch);
-        EXPECT_EQ(first.radiance, again.radiance);
-        EXPECT_EQ(scratch.refinement.capacity(), capacity);
-    }
 }
 
 TEST(Gather, DegenerateSumsAreRight) {

@@ -26,10 +26,10 @@ struct Leaves {
             items.push_back({V(random.in_box({0, 0, 0}, {1, 1, 1})), values.back()});
         }
     }
-    TimeVectors<float> vectors(const ClusterTree& tree, std::uint32_t t, std::uint64_t seed) const {
+    TimeVectors<float> vectors(const ClusterTree& tree, std::uint32_t t) const {
         TimeVectors<float> vectors;
         vectors.build(
-            tree, t, seed, [&](std::uint32_t i) { return instants[i]; }, [&](std::uint32_t i) { return values[i]; });
+            tree, t, [&](std::uint32_t i) { return instants[i]; }, [&](std::uint32_t i) { return values[i]; });
         return vectors;
     }
     /// What stands below `n` at each instant.
@@ -46,7 +46,7 @@ TEST(TimeVectors, AreTheSumsOfTheLeavesAtEachInstant) {
     for (const std::uint32_t t : {1u, 3u, 16u, 200u}) {
         const Leaves leaves(150, t, t);
         const ClusterTree tree = divide(std::span<const PointItem>(leaves.items));
-        const auto vectors = leaves.vectors(tree, t, 1);
+        const auto vectors = leaves.vectors(tree, t);
         for (std::uint32_t n = 0; n < tree.size(); ++n) {
             const auto sums = leaves.below(tree, n);
             ASSERT_EQ(vectors.count(n), sums.size());
@@ -54,10 +54,6 @@ TEST(TimeVectors, AreTheSumsOfTheLeavesAtEachInstant) {
                 const auto at = sums.find(i);
                 const double expected = at == sums.end() ? 0.0 : at->second;
                 EXPECT_NEAR(static_cast<double>(vectors.at(n, i)), expected, 1e-5 * expected);
-                if (at == sums.end()) continue;
-                const std::uint32_t leaf = vectors.representative(n, i);
-                EXPECT_TRUE(tree.contains(n, leaf) && tree.is_leaf(leaf));
-                EXPECT_EQ(leaves.instants[tree.item(leaf)], i);
             }
         }
     }
@@ -67,7 +63,7 @@ TEST(TimeVectors, CommonInstantsAreThoseOfBoth) {
     const Leaves a(60, 24, 1), b(300, 24, 2);
     const ClusterTree tree_a = divide(std::span<const PointItem>(a.items)),
                       tree_b = divide(std::span<const PointItem>(b.items));
-    const auto of_a = a.vectors(tree_a, 24, 1), of_b = b.vectors(tree_b, 24, 1);
+    const auto of_a = a.vectors(tree_a, 24), of_b = b.vectors(tree_b, 24);
     for (std::uint32_t m = 0; m < tree_a.size(); m += 3) {
         for (std::uint32_t n = 0; n < tree_b.size(); n += 7) {
             double expected = 0, found = 0;
@@ -80,22 +76,6 @@ TEST(TimeVectors, CommonInstantsAreThoseOfBoth) {
             });
             EXPECT_NEAR(found, expected, 1e-4 * expected);
         }
-    }
-}
-
-TEST(TimeVectors, RepresentativesAreDrawnByWhatLeavesHave) {
-    Leaves leaves(40, 2, 3);
-    const ClusterTree tree = divide(std::span<const PointItem>(leaves.items));
-    std::map<std::uint32_t, int> drawn;
-    constexpr int seeds = 40'000;
-    for (int seed = 0; seed < seeds; ++seed) {
-        const auto vectors = leaves.vectors(tree, 2, static_cast<std::uint64_t>(seed));
-        ++drawn[tree.item(vectors.representative(tree.root(), 1))];
-    }
-    const double all = leaves.below(tree, tree.root()).at(1);
-    for (const auto& [item, count] : drawn) {
-        const double share = static_cast<double>(leaves.values[item]) / all;
-        EXPECT_NEAR(count / double{seeds}, share, 5 * std::sqrt(share / seeds));
     }
 }
 
@@ -115,9 +95,9 @@ TEST(TimeVectors, OfMovingLightsNeedLittleMemory) {
 TEST(TimeVectors, RefuseAnInstantThatThereIsNot) {
     const Leaves leaves(5, 8, 1);
     const ClusterTree tree = divide(std::span<const PointItem>(leaves.items));
-    EXPECT_THROW(leaves.vectors(tree, 1, 1), invalid_input);
-    EXPECT_THROW(leaves.vectors(tree, 0, 1), invalid_input);
-    EXPECT_THROW(leaves.vectors(tree, 70'000, 1), invalid_input);
+    EXPECT_THROW(leaves.vectors(tree, 1), invalid_input);
+    EXPECT_THROW(leaves.vectors(tree, 0), invalid_input);
+    EXPECT_THROW(leaves.vectors(tree, 70'000), invalid_input);
 }
 
 // Where there is one instant, nothing of time is stored.

@@ -9,6 +9,7 @@
 #include <lightcuts/bound/attenuated.hpp>
 #include <lightcuts/cut/lightcut.hpp>
 #include <lightcuts/estimate/exhaustive.hpp>
+#include <lightcuts/shading/transfer.hpp>
 #include "support/scene.hpp"
 
 namespace lightcuts::test {
@@ -17,6 +18,8 @@ namespace {
 using V = glm::vec3;
 
 static_assert(BoundedMedium<UniformMedium>);
+
+constexpr AlwaysVisible nothing{};
 
 /// Largest distance of shadow origins in `Room`.
 constexpr float shadow_offset = 2e-4f;
@@ -50,6 +53,38 @@ TEST(UniformMedium, BoundIsAtLeastTheTransmittance) {
         const float bound = fog.upper_bound(a, b);
         for (const V& s : starts) {
             for (const V& e : ends) ASSERT_LE(fog.transmittance(s, e), bound);
+        }
+    }
+}
+
+/// Of a box of receivers, with shadow origins off their positions.
+TEST(AttenuatedBounds, HoldForBoxesOfReceivers) {
+    using Cluster = LightCluster<OmniLight<V>>;
+    Random random(2);
+    for (int i = 0; i < 20'000; ++i) {
+        const UniformMedium fog(static_cast<float>(random.decades(-2.0, 3.0)), {V(-1.0f), V(1.0f)});
+        const float offset = static_cast<float>(random.decades(-6.0, -1.0));
+        const AttenuatedBounds bounds(fog, offset);
+        Cluster cluster = cluster_of(OmniLight<V>{V(random.in_box({-1, -1, -1}, {1, 1, 1})), V(1.0f), {}});
+        std::vector<OmniLight<V>> lights{{cluster.box.lo, V(1.0f), {}}};
+        for (int k = 0; k < 2; ++k) {
+            lights.push_back({lights[0].position + V(0.3 * random.on_sphere()), V(1.0f), {}});
+            cluster = merge_extents(cluster, cluster_of(lights.back()));
+        }
+        Box box;
+        std::vector<Receiver<Lambert<V>>> receivers;
+        const glm::dvec3 middle = random.in_box({-1, -1, -1}, {1, 1, 1}), normal = random.on_sphere();
+        for (std::uint32_t k = 0; k < 3; ++k) {
+            const V p(middle + 0.2 * random.on_sphere());
+            receivers.push_back({p, Lambert<V>{V(normal), V(1.0f)}, p + offset * V(normal), k});
+            box = merge(box, box_of(p));
+        }
+        const V bound = bounds.quick(receivers[0].material, cluster, box);
+        const ThroughMedium<AlwaysVisible, UniformMedium> see(nothing, fog);
+        for (const auto& r : receivers) {
+            for (const auto& l : lights) {
+                ASSERT_LE(unshadowed_transfer(r, l).x * static_cast<float>(see(r, l)), bound.x) << i;
+            }
         }
     }
 }

@@ -25,14 +25,6 @@ std::variant<lightcuts::ModifiedPhong<>, lightcuts::Ggx<>> lobe_of(const Surface
     return lightcuts::Ggx<>(p.shading_normal, p.to_viewer, p.specular, p.shininess, p.grazing);
 }
 
-/// 1 for a wide lobe to 4 for a mirror.
-float sharpness(const SurfacePoint& p) {
-    // Of a microfacet lobe the exponent of about the same width.
-    const float exponent = p.model == SurfacePoint::Model::phong ? p.shininess
-                                                                 : 2.0f / (p.shininess * p.shininess) - 2.0f;
-    return std::clamp(1.0f + 0.4f * std::log2(1.0f + std::max(exponent, 0.0f)), 1.0f, 4.0f);
-}
-
 }  // namespace
 
 glm::vec3 DiffuseLobe::evaluate(const glm::vec3& to_light) const {
@@ -45,10 +37,8 @@ lightcuts::CosineLobe<glm::vec3> DiffuseLobe::cosine_lobe() const {
 
 GlossyLobe::GlossyLobe(const SurfacePoint& p)
     : geometric_normal_(p.geometric_normal),
-      main_direction_(sharpness(p) * (2.0f * glm::dot(p.shading_normal, p.to_viewer) * p.shading_normal - p.to_viewer)),
-      lobe_(lobe_of(p)) {}
 
-glm::vec3 GlossyLobe::evaluate(const glm::vec3& to_light) const {
+      glm::vec3 GlossyLobe::evaluate(const glm::vec3& to_light) const {
     return std::visit(
         [&]<class M>(const M& lobe) {
             return lightcuts::AboveHorizon<const M&>{lobe, geometric_normal_}.evaluate(to_light);
@@ -62,6 +52,10 @@ glm::vec3 GlossyLobe::upper_bound(const lightcuts::OffsetBox& offsets) const {
             return lightcuts::AboveHorizon<const M&>{lobe, geometric_normal_}.upper_bound(offsets);
         },
         lobe_);
+}
+
+glm::vec3 GlossyLobe::main_direction() const {
+    return std::visit([](const auto& lobe) { return lobe.main_direction(); }, lobe_);
 }
 
 GlossyEnvelope GlossyLobe::envelope() const {

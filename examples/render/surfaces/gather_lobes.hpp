@@ -46,11 +46,10 @@ public:
     glm::vec3 upper_bound(const lightcuts::OffsetBox& offsets) const;
     GlossyEnvelope envelope() const;
     /// The mirrored view, longer where the lobe is sharper: 1 to 4.
-    glm::vec3 main_direction() const { return main_direction_; }
+    glm::vec3 main_direction() const;
 
 private:
     glm::vec3 geometric_normal_;
-    glm::vec3 main_direction_;
     std::variant<lightcuts::ModifiedPhong<>, lightcuts::Ggx<>> lobe_;
 };
 

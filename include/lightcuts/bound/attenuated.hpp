@@ -15,7 +15,7 @@ namespace lightcuts {
 /// Bounds in a medium: those of `Policy` times the least attenuation between receivers and lights [Multidimensional
 /// Lightcuts 2006, section 4]. For oracles that attenuate as `ThroughMedium` does. Directional lights count as not
 /// attenuated.
-template <BoundedMedium M, class Policy>
+template <BoundedMedium M, class Policy = TwoStageBounds>
 class AttenuatedBounds {
 public:
     static constexpr bool two_stages = Policy::two_stages;
@@ -26,6 +26,8 @@ public:
         : medium_(&medium), shadow_offset_(shadow_offset), policy_(policy) {
         if constexpr (two_stages) tight_band = policy.tight_band;
     }
+    /// They would refer to a medium that is gone.
+    AttenuatedBounds(const M&&, float, const Policy& = {}) = delete;
 
     /// See TwoStagePolicy.
     double tight_band = 1.0;

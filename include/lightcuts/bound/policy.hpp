@@ -42,6 +42,15 @@ void quick_bounds(const Policy& policy, const B& bound, const LightCluster<L>* c
     }
 }
 
+/// True unless a representative's transfer exceeds a bound of it by more than rounding.
+template <Spectrum S>
+bool dominates(const S& unit, const S& transfer) {
+    for (int c = 0; c < channels_of<S>; ++c) {
+        if (channel(transfer, c) > 1.0001f * channel(unit, c)) return false;
+    }
+    return true;
+}
+
 /// `policy.quick` of several pairs of a cluster of one kind and a box of receivers: units[i] for *clusters[i] at the
 /// receivers in *receivers[i], whose surfaces *bounds[i] bounds; all at once by `quick_pairs` if the policy has it.
 template <class Policy, class B, Light L>

@@ -106,6 +106,15 @@ constexpr S larger_channels(const S& a, const S& b) {
     });
 }
 
+/// Of each channel the smaller one; that of `a` where `b` is no number.
+template <Spectrum S>
+constexpr S smaller_channels(const S& a, const S& b) {
+    return make_spectrum<S>([&](int i) {
+        const float x = channel(a, i), y = channel(b, i);
+        return y < x ? y : x;
+    });
+}
+
 /// True iff every channel is exactly zero.
 template <Spectrum S>
 constexpr bool is_black(const S& s) {

@@ -93,20 +93,9 @@ private:
         }
     }
 
-    /// True unless a representative's transfer exceeds a bound of it by more than rounding.
-    static bool dominates(const S& unit, const S& transfer) {
-        for (int c = 0; c < channels_of<S>; ++c) {
-            if (channel(transfer, c) > 1.0001f * channel(unit, c)) return false;
-        }
-        return true;
-    }
-
     template <class Cluster>
     static void lower_bound(Node& n, const S& unit, const Cluster& cluster) {
-        n.unit_bound = make_spectrum<S>([&](int c) {
-            const float a = channel(n.unit_bound, c), b = channel(unit, c);
-            return b < a ? b : a;
-        });
+        n.unit_bound = smaller_channels(n.unit_bound, unit);
         n.bound = multiply_bounds(n.unit_bound, cluster.intensity);
     }
 

@@ -149,6 +149,12 @@ public:
                 true};
     }
 
+    /// The mirrored view, of length 1 to 4, longer where the lobe is sharper.
+    glm::vec3 main_direction() const {
+        const glm::dvec3 mirror = 2.0 * frame_.cos_view() * frame_.normal() - frame_.view();
+        return detail::glossy_direction(mirror, 2.0 / alpha2_ - 2.0);
+    }
+
 private:
     /// Upper bound of n . o.
     double most_cosine(const OffsetBox& offsets) const {

@@ -16,6 +16,13 @@ namespace detail {
 /// A cone about a direction known within 2e-6 radians: more than its rounding to float.
 inline Cone cone_about(const glm::dvec3& direction) { return {glm::vec3(glm::normalize(direction)), 1e-12f}; }
 
+/// The direction `mirror`, from 1 for a wide lobe to 4 for a sharp one: of Phong's exponent, or of that of a lobe about
+/// as wide [Multidimensional Lightcuts 2006, section 3.4].
+inline glm::vec3 glossy_direction(const glm::dvec3& mirror, double exponent) {
+    const double length = 1.0 + 0.4 * std::log2(1.0 + (exponent > 0.0 ? exponent : 0.0));
+    return glm::vec3(mirror * (length < 4.0 ? length : 4.0));
+}
+
 /// Upper bound of the cosine between any direction of a cone and any of a box.
 inline double max_cosine_to_cone(const Cone& cone, const OffsetBox& box, double tolerance = 1e-3) {
     return widen_cosine(max_cosine(unit_axis(cone), box, tolerance), cone);

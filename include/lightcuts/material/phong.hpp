@@ -67,6 +67,9 @@ public:
                 scale_ * static_cast<float>(6.2831853071795865 / (exponent_ + 2.0))};
     }
 
+    /// The mirrored view, of length 1 to 4, longer where the lobe is sharper.
+    glm::vec3 main_direction() const { return detail::glossy_direction(mirror_, exponent_); }
+
 private:
     /// Without coordinates that float bounds would take for zero.
     static glm::dvec3 in_float_range(const glm::dvec3& v) {

@@ -8,6 +8,7 @@
 #include "../core/vectorized.hpp"
 #include "conservative_rounding.hpp"
 #include "direction_caps.hpp"
+#include "glossy_envelope.hpp"
 #include "half_vector.hpp"
 #include "material.hpp"
 
@@ -88,6 +89,12 @@ public:
                                                         static_cast<double>(h.sin2[i]));
         }
         detail::blacken_below(normal, offsets, bounds);
+    }
+
+    /// The mirrored view, of length 1 to 4, longer where the lobe is sharper.
+    glm::vec3 main_direction() const {
+        const glm::dvec3 mirror = 2.0 * frame_.cos_view() * frame_.normal() - frame_.view();
+        return detail::glossy_direction(mirror, 2.0 / alpha2_ - 2.0);
     }
 
 private:

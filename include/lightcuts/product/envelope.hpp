@@ -21,6 +21,7 @@ namespace lightcuts {
 template <class M>
 concept EnvelopedMaterial = Material<M> && requires(const M& m) {
     requires ReflectionBound<std::remove_cvref_t<decltype(m.envelope())>, material_spectrum<M>>;
+    requires std::semiregular<std::remove_cvref_t<decltype(m.envelope())>>;
     { merge(m.envelope(), m.envelope()) } -> std::same_as<std::remove_cvref_t<decltype(m.envelope())>>;
 };
 

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <array>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <ranges>
 #include <span>
+#include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -21,8 +21,8 @@ namespace lightcuts {
 /// What a sum over pairs of gather points and lights yields.
 template <Spectrum S>
 struct GatherResult : CutResult<S> {
-    /// The largest bound of a pair of clusters left on the cut, in each channel: at most the error ratio times the
-    /// total where the refinement has converged. `error_bound` is the sum of all.
+    /// The largest bound of a pair of clusters left on the cut, in each channel: at most the error ratio times the sum
+    /// of the total and a tenth of the adaptation where the refinement has converged. `error_bound` is the sum of all.
     S largest_bound = black<S>();
     double pairs = 0.0;  ///< gather points times lights
 };
@@ -71,23 +71,25 @@ struct GatherLights<TimedForest<Ls...>> {
 /// A LightTree, a LightForest or a TimedForest.
 template <class T>
 concept GatherableLights = requires {
-    typename detail::GatherLights<T>::type;
+    typename detail::GatherLights<std::remove_cvref_t<T>>::type;
 };
 
 /// The scratch for gathering from such lights.
 template <GatherableLights T>
-using gather_scratch_of =
-    GatherScratch<typename detail::GatherLights<T>::type::spectrum, detail::GatherLights<T>::type::timed,
-                  detail::GatherLights<T>::type::forest_type::clamps>;
+using gather_scratch_of = GatherScratch<typename detail::GatherLights<std::remove_cvref_t<T>>::type::spectrum,
+                                        detail::GatherLights<std::remove_cvref_t<T>>::type::timed,
+                                        detail::GatherLights<std::remove_cvref_t<T>>::type::forest_type::clamps>;
 
 namespace detail {
 
 /// The sum over one gather point: its lightcut.
 template <class Forest, class G, class Oracle, class Scratch, class Policy>
 GatherResult<typename Forest::spectrum> gather_at_one_point(const Forest& forest, const G& point, const Oracle& oracle,
-                                                            Scratch& scratch, LightcutOptions options,
+                                                            Scratch& scratch, const ProductOptions& product,
                                                             const Policy& policy) {
     using S = typename Forest::spectrum;
+    LightcutOptions options = product.cut;
+    options.seed = hash_keys(options.seed, product.id);
     // The least that it is of a channel: the threshold is then at most what it is of the sum.
     options.adaptation /= channel_max(point.strength);
     GatherResult<S> result{shade(forest, point.receiver, oracle, scratch, options, policy)};
@@ -120,7 +122,7 @@ GatherResult<typename Lights::spectrum> gather_pairs(const Lights& lights, const
             points.for_each([&](std::uint32_t, const auto& tree) {
                 if (tree.empty()) return;
                 result = gather_at_one_point(lights.forest(), tree.point(tree.topology().root()), oracle,
-                                             scratch.one_point, options.cut, policy);
+                                             scratch.one_point, options, policy);
             });
             return result;
         }
@@ -189,11 +191,12 @@ GatherResult<typename Lights::spectrum> gather_pairs(const Lights& lights, const
 /// pairs of clusters [Multidimensional Lightcuts 2006]: a pixel, a light-map texel, a probe. `radiance` of the result
 /// is the sum of strength x lobe x geometric term x visibility x intensity over pairs that exist at one instant.
 /// `lights`: a LightTree, a LightForest, or a TimedForest where some lights exist at one instant each.
-/// `points`: a GatherForest built with as many instants as the lights have. Lights may be clamped by transfer.
-/// threads: safe with one scratch and one GatherForest each. cost: about one shadow ray, three bounds and a half for
-/// two pairs on the cut.
-/// The sum over a single gather point is its lightcut.
-/// throws: invalid_input if `options` ask for clamping by radiance or share.
+/// Lights may be clamped by transfer. A BoundedOracle's bounds of clusters are not asked, but at a single point.
+/// pre: where lights have instants, `points` was built with as many.
+/// threads: safe with one scratch and one GatherForest each. cost: about one shadow ray for two pairs on the cut, and
+/// the bounds of four pairs; of lobes without an envelope, such as sums, a bound takes as long as there are points
+/// below. The sum over a single gather point is its lightcut. throws: invalid_input if `options` ask for clamping by
+/// radiance or share, or the instants of lights and points differ.
 template <GatherableLights Lights, AnyGatherPoint... Gs, class Oracle, class Policy = TwoStageBounds>
 GatherResult<typename GatherForest<Gs...>::spectrum> gather(const Lights& lights, const GatherForest<Gs...>& points,
                                                             const Oracle& oracle, gather_scratch_of<Lights>& scratch,
@@ -203,6 +206,11 @@ GatherResult<typename GatherForest<Gs...>::spectrum> gather(const Lights& lights
         LIGHTCUTS_THROW(invalid_input("gather: lights may be clamped by transfer only, not by radiance or share"));
     }
     if constexpr (detail::is_timed_forest<Lights>) {
+        if (Lights::timed && points.instants() != lights.instants()) {
+            LIGHTCUTS_THROW(invalid_input("gather: the lights have " + std::to_string(lights.instants()) +
+                                          " instants, the trees of gather points were built with " +
+                                          std::to_string(points.instants())));
+        }
         return detail::gather_pairs(lights, points, oracle, scratch, options, policy);
     } else {
         return detail::gather_pairs(detail::without_instants(as_forest(lights)), points, oracle, scratch, options,

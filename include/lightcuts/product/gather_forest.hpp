@@ -1,12 +1,12 @@
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <tuple>
 #include <utility>
 
-#include "../core/random.hpp"
 #include "gather_tree.hpp"
 
 namespace lightcuts {
@@ -26,10 +26,15 @@ public:
     static constexpr bool timed = (TimedGatherPoint<Gs> && ...);
 
     /// Builds the trees of other points, each in the storage of the one before. The points must stay where they are.
-    /// throws: invalid_input, see `GatherTree::build`.
+    /// throws: invalid_input, see `GatherTree::build`; all trees then are empty.
     void build(std::span<const Gs>... points, const GatherTreeOptions& options) {
+        std::apply([](auto&... trees) { (trees.clear(), ...); }, trees_);
+        instants_ = options.instants;
         build_from(std::index_sequence_for<Gs...>{}, options, points...);
     }
+
+    /// Of the last build.
+    std::uint32_t instants() const { return instants_; }
 
     /// Calls `f(tree)` with the tree of kind `kind` and returns its result. pre: kind < kinds.
     template <class F>
@@ -51,9 +56,8 @@ public:
 
 private:
     template <std::size_t... Ks>
-    void build_from(std::index_sequence<Ks...>, GatherTreeOptions options, std::span<const Gs>... points) {
-        const std::uint64_t seed = options.seed;
-        ((options.seed = hash_keys(seed, Ks), std::get<Ks>(trees_).build(points, options)), ...);
+    void build_from(std::index_sequence<Ks...>, const GatherTreeOptions& options, std::span<const Gs>... points) {
+        (std::get<Ks>(trees_).build(points, options), ...);
     }
     template <std::size_t K, class F>
     decltype(auto) visit_from([[maybe_unused]] std::uint32_t kind, F& f) const {
@@ -70,6 +74,7 @@ private:
     }
 
     std::tuple<GatherTree<Gs>...> trees_;
+    std::uint32_t instants_ = 1;
 };
 
 }  // namespace lightcuts

@@ -14,7 +14,6 @@
 
 #include "../core/box.hpp"
 #include "../core/invalid_input.hpp"
-#include "../core/random.hpp"
 #include "../core/vector.hpp"
 #include "../tree/build/divide.hpp"
 #include "../tree/build/longest_axis.hpp"
@@ -37,9 +36,7 @@ struct GatherTreeOptions {
     /// The diagonal of the scene in world units: an eighth of it is what a unit of direction counts for where positions
     /// and directions are compared [Multidimensional Lightcuts 2006, section 3.4]. 0: that of the gather points' box.
     double scene_diagonal = 0.0;
-    /// Of the choice of a cluster's representative at each instant, where there are several.
-    std::uint64_t seed = 1;
-    /// Instants of the lights; 1: whatever instants gather points have do not matter to lights.
+    /// Of the lights; 1 if these have none, whatever instants gather points have.
     std::uint32_t instants = 1;
 };
 
@@ -55,9 +52,6 @@ template <class M>
 struct EnvelopeOfLobe<M> {
     using type = decltype(envelope_of_lobe(std::declval<const M&>()));
 };
-}  // namespace detail
-
-namespace detail {
 
 /// LongestAxis, which halves a handful of points in the order in which they came: cuts hardly ever get there, and half
 /// of the time that a tree takes would go into it.
@@ -140,24 +134,30 @@ public:
     /// Builds the tree of other points, in the storage of those before, by splits along the longest axis in six
     /// dimensions.
     /// throws: invalid_input naming the first point whose strength is negative or not finite, whose position is not
-    /// finite, or whose instant is too large. cost: O(N log N).
+    /// finite, or whose instant is not below `options.instants`; the tree then is empty. cost: O(N log N).
     void build(std::span<const G> points, const GatherTreeOptions& options = {}) {
+        clear();
         points_ = points;
-        topology_ = ClusterTree(std::move(topology_).release());
-        make_items(options.scene_diagonal);
+        make_items(options);
         divide_into(std::span(items_), detail::GatherSplitter{}, space_, divide_, topology_);
         summarize_points();
-        is_timed_ = false;
         if constexpr (TimedGatherPoint<G>) {
             if (options.instants > 1) {
-                is_timed_ = true;
                 times_.build(
-                    topology_, options.instants, hash_keys(options.seed, 1),
-                    [&](std::uint32_t i) { return points_[i].instant; },
+                    topology_, options.instants, [&](std::uint32_t i) { return points_[i].instant; },
                     [&](std::uint32_t i) { return points_[i].strength; });
-                return;
+                is_timed_ = true;
             }
         }
+    }
+
+    /// Leaves a tree of no points, and keeps its storage.
+    void clear() {
+        points_ = {};
+        std::vector<std::uint32_t> words = std::move(topology_).release();
+        words.clear();
+        topology_ = ClusterTree(std::move(words));
+        is_timed_ = false;
     }
 
     /// True if no point has any strength.
@@ -168,7 +168,7 @@ public:
     const G& point(node_index leaf) const { return points_[topology_.item(leaf)]; }
     /// The sum over the channels of a node's strength.
     double weight(node_index n) const { return weights_[n]; }
-    /// Strengths and representatives by instant, where there are several.
+    /// Strengths by instant, where there are several.
     const TimeVectors<spectrum>& times() const requires TimedGatherPoint<G> { return times_; }
     bool is_timed() const { return is_timed_; }
 
@@ -193,14 +193,13 @@ private:
         if constexpr (DirectedMaterial<material_type>) {
             return to_vec3(m.main_direction());
         } else if constexpr (CosineLobeMaterial<material_type>) {
-            return unit_direction(merge(Cone{}, m.cosine_lobe().normal));
+            return merge(Cone{}, m.cosine_lobe().normal).axis;
         } else {
             return glm::vec3(0.0f);
         }
     }
-    static glm::vec3 unit_direction(const Cone& c) { return c.axis; }
 
-    void make_items(double scene_diagonal) {
+    void make_items(const GatherTreeOptions& options) {
         Box box;
         double largest = 0.0;
         for (std::size_t i = 0; i < points_.size(); ++i) {
@@ -211,13 +210,18 @@ private:
                 if (!(s - s == 0.0f)) reject(i, "strength is infinite");
             }
             if (!is_finite(points_[i].receiver.position)) reject(i, "position is not finite");
+            if constexpr (TimedGatherPoint<G>) {
+                if (options.instants > 1 && points_[i].instant >= options.instants) {
+                    reject(i, "its instant is not below the number of instants");
+                }
+            }
             if (!(sum > 0.0)) continue;
             box = merge(box, box_of(points_[i].receiver.position));
             largest = sum > largest ? sum : largest;
         }
         items_.clear();
         if (is_empty(box)) return;
-        const double diagonal = scene_diagonal > 0.0 ? scene_diagonal : std::sqrt(diagonal2(box));
+        const double diagonal = options.scene_diagonal > 0.0 ? options.scene_diagonal : std::sqrt(diagonal2(box));
         space_ = {};
         for (int a = 0; a < 3; ++a) space_.origin[static_cast<std::size_t>(a)] = static_cast<double>(box.lo[a]);
         if (diagonal > 0.0) space_.per_length = 1.0 / diagonal;

@@ -1,10 +1,8 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <type_traits>
 
@@ -12,6 +10,7 @@
 #include "../core/assertion.hpp"
 #include "../core/reusable_list.hpp"
 #include "../cut/refinement.hpp"
+#include "../tree/cluster_tree.hpp"
 #include "product_node.hpp"
 
 namespace lightcuts::detail {
@@ -86,7 +85,7 @@ public:
                 const auto is_of_kinds = [&](const Node& n) {
                     return n.gather_kind == gather_kind && n.light_kind == light_kind;
                 };
-                bound_pairs(gather_tree, light_tree, frontier, candidates, is_of_kinds, priority);
+                bound_pairs(gather_tree, light_tree, frontier, candidates, is_of_kinds, priority, threshold);
                 choose_sides(gather_tree, light_tree, frontier, candidates, is_of_kinds, threshold);
             });
         });
@@ -95,17 +94,28 @@ public:
 private:
     template <class GatherTree, class LightTree, class IsOfKinds, class Priority>
     void bound_pairs(const GatherTree& gather_tree, const LightTree& light_tree, ReusableList<Node>& frontier,
-                     std::span<RefinementCandidate> candidates, const IsOfKinds& is_of_kinds,
-                     const Priority& priority) const {
+                     std::span<RefinementCandidate> candidates, const IsOfKinds& is_of_kinds, const Priority& priority,
+                     [[maybe_unused]] double threshold) const {
         PairBlock block(gather_tree, light_tree);
         std::array<RefinementCandidate*, static_cast<std::size_t>(lane_count)> members;
         const auto flush = [&] {
             const auto& units = block.bound(policy_);
             for (std::size_t i = 0; i < block.size(); ++i) {
                 Node& n = frontier[members[i]->at];
+                double& p = members[i]->priority;
+                LIGHTCUTS_ASSERT(dominates(units[i], n.transfer) &&
+                                 "a bound is below what evaluate() returns: do both include the cosine?");
                 lower_bound(n, units[i]);
                 n.bounded = true;
-                members[i]->priority = priority(n);
+                p = priority(n);
+                if constexpr (Policy::two_stages) {
+                    // The tight bound is computed only where it can change the decision.
+                    if (policy_.tight_band > 1.0 && p > threshold && p < policy_.tight_band * threshold) {
+                        lower_bound(n, policy_.tight(gather_tree.bound(n.gather), light_tree.clusters()[n.light],
+                                                     gather_tree.clusters()[n.gather].box));
+                        p = priority(n);
+                    }
+                }
             }
             block.clear();
         };
@@ -170,10 +180,7 @@ private:
     }
 
     static void lower_bound(Node& n, const S& unit) {
-        n.unit_bound = make_spectrum<S>([&](int c) {
-            const float a = channel(n.unit_bound, c), b = channel(unit, c);
-            return b < a ? b : a;
-        });
+        n.unit_bound = smaller_channels(n.unit_bound, unit);
         n.bound = multiply_bounds(n.unit_bound, n.weight);
     }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -23,18 +22,32 @@
 
 namespace lightcuts {
 
+namespace detail {
+
+/// True if `Oracle` can be asked about every pair of a gather point and a light.
+template <class Oracle, class Points, class Forest>
+inline constexpr bool answers_points = false;
+template <class Oracle, AnyGatherPoint... Gs, class Forest>
+inline constexpr bool answers_points<Oracle, GatherForest<Gs...>, Forest> =
+    (answers<Oracle, decltype(Gs::receiver), Forest> && ...);
+
+}  // namespace detail
+
 /// How the sum over pairs of gather points and lights is refined.
 struct ProductOptions {
-    /// Error ratio, largest cut, adaptation, seed and the limit of transfer of ClampableLights; other ways of clamping
-    /// are not for sums over pairs. Cuts are larger than those of one receiver: at most 2000 clusters, as in the paper.
+    /// As of lightcuts, with pairs in place of clusters and lights: error ratio, largest cut, `exhaustive_below`,
+    /// adaptation, seed and the limit of transfer of ClampableLights; other ways of clamping are not for sums over
+    /// pairs. Cuts are larger than those of one receiver: at most 2000 pairs, as in the paper, unless that is less than
+    /// what they start from, a pair for each two trees.
     LightcutOptions cut{.max_cut = 2000};
     /// Of this sum: a pixel, a texel. Choices of different ids do not depend on one another.
     std::uint32_t id = 0;
-    /// Starts with each gather point by itself, so that only lights are clustered: a reference to compare with, the
-    /// 'unified cut' of the paper.
+    /// Starts with each gather point by itself, whatever the largest cut, so that only lights are clustered: a
+    /// reference to compare with, the 'unified cut' of the paper.
     bool separate_points = false;
-    /// Draws the representatives of every pair of the final cut anew, so that the estimate does not depend on what the
-    /// refinement has seen: unbiased for that cut, for one more shadow ray a pair.
+    /// Draws the representatives of every pair of the final cut anew, but of single ones, so that the estimate does not
+    /// depend on what the refinement has seen: unbiased for that cut where strengths and intensities are each of one
+    /// hue, for one more shadow ray a pair. (Of several channels that vary, a pair is drawn by their sum.)
     bool redraw = false;
 };
 
@@ -46,6 +59,10 @@ public:
     using S = typename Lights::spectrum;
     static_assert(std::same_as<S, typename Points::spectrum>, "gather points and lights need the same spectrum");
     static_assert(!Lights::timed || Points::timed, "lights with instants need gather points with instants");
+    static_assert(
+        detail::answers_points<Oracle, Points, typename Lights::forest_type>,
+        "an oracle needs operator()(receiver, light) const, which returns a bool, a fraction or a spectrum of "
+        "fractions, or many(queries, answers) const");
 
     static constexpr bool timed = Lights::timed;
     using Node = ProductNode<S, timed>;
@@ -61,10 +78,15 @@ public:
     void roots(ReusableList<Node>& out) {
         total_.start(options_.cut.clamp, lights_.forest());
         queries_ = 0;
+        const std::size_t most = options_.cut.max_cut == 0 ? (std::numeric_limits<std::size_t>::max)()
+                                                           : options_.cut.max_cut;
+        std::size_t starts = 0;  // of gather points
+        points_.for_each([&](std::uint32_t, const auto& tree) {
+            starts += options_.separate_points ? tree.topology().item_count() : tree.empty() ? 0u : 1u;
+        });
         const std::size_t pairs = points_.point_count() * lights_.forest().light_count();
-        const bool exhaustive = pairs <= options_.cut.exhaustive_below;
-        const bool frontier = options_.cut.max_cut == 0 ||
-                              options_.cut.max_cut >= 8 * Points::kinds * lights_.forest().start_count();
+        const bool exhaustive = pairs <= options_.cut.exhaustive_below && pairs <= most;
+        const bool frontier = 8 * starts * lights_.forest().start_count() <= most;
         for_each_pair([&](auto kinds, const auto& points, const auto& lights, const auto& times) {
             if (points.empty() || lights.empty()) return;
             const auto add = [&](ClusterTree::node_index gather, ClusterTree::node_index light) {
@@ -151,15 +173,15 @@ public:
         return answers;
     }
 
-    /// Draws other representatives for a node of the cut, which then wait to be looked at: not those that clusters
-    /// keep, on which the shape of the cut depends. Those of a single pair stay. cost: O(depth).
+    /// Draws other representatives for a node of the cut, which then wait to be looked at. Those of a single pair stay.
     void redraw(Node& n) const {
         visit(n, [&](auto, const auto& points, const auto& lights, const auto& times) {
-            if (points.topology().is_leaf(n.gather) && lights.topology().is_leaf(n.light)) return;
-            n.queried = true;
+            // A single pair's transfer is known.
+            n.queried = !(points.topology().is_leaf(n.gather) && lights.topology().is_leaf(n.light));
+            if (!n.queried) return;
             n.transfer = black<S>();
             n.estimate = black<S>();
-            draw_afresh(points, lights, times, n);
+            draw(points, lights, times, n, Purpose::redraw);
         });
     }
 
@@ -277,53 +299,44 @@ private:
             n.queried = true;
             n.transfer = black<S>();
             n.estimate = black<S>();
-            draw(points, lights, times, n);
+            draw(points, lights, times, n, Purpose::refine);
         }
     }
+
+    /// What representatives are drawn for: while the cut is refined, or anew when it is final.
+    enum class Purpose : std::uint8_t { refine, redraw };
 
     /// Draws a node's representatives: the instant by what the pair weighs then, a gather point and a light by what
-    /// each has of its side then [Multidimensional Lightcuts 2006, Eq. 8-12].
+    /// each has of its side then [Multidimensional Lightcuts 2006, Eq. 8-12]. cost: O(depth)
     template <class GatherTree, class LightTree, class Times>
-    void draw(const GatherTree& points, const LightTree& lights, [[maybe_unused]] const Times& times, Node& n) const {
-        const std::uint64_t seed = seed_of(n, 0);
+    void draw(const GatherTree& points, const LightTree& lights, [[maybe_unused]] const Times& times, Node& n,
+              Purpose purpose) const {
+        const std::uint64_t seed = hash_keys(options_.cut.seed, options_.id, static_cast<std::uint32_t>(purpose),
+                                             n.gather_kind, n.light_kind, n.gather, n.light);
+        const std::uint64_t of_point = hash_keys(seed, 0), of_light = hash_keys(seed, 1);
         if constexpr (at_instants<LightTree>) {
             if (points.is_timed()) {
                 const std::uint32_t instant = draw_common_instant(points.times(), n.gather, times, n.light, seed);
                 n.instant = static_cast<std::uint16_t>(instant);
-                n.gather_representative = points.times().representative(n.gather, instant);
-                n.light_representative = times.representative(n.light, instant);
-                return;
-            }
-        }
-        n.gather_representative = draw_gather_point(points, n.gather, hash_keys(seed, 0));
-        n.light_representative = lights.topology().is_leaf(n.light)
-                                     ? n.light
-                                     : lights.representatives().draw(n.light, hash_keys(seed, 1));
-    }
-
-    /// As `draw`, but among all gather points and lights below the node.
-    template <class GatherTree, class LightTree, class Times>
-    void draw_afresh(const GatherTree& points, const LightTree& lights, [[maybe_unused]] const Times& times,
-                     Node& n) const {
-        const std::uint64_t seed = seed_of(n, 1);
-        const ClusterTree &gather_tree = points.topology(), &light_tree = lights.topology();
-        if constexpr (at_instants<LightTree>) {
-            if (points.is_timed()) {
-                const std::uint32_t instant = draw_common_instant(points.times(), n.gather, times, n.light, seed);
-                n.instant = static_cast<std::uint16_t>(instant);
-                n.gather_representative = draw_leaf(gather_tree, n.gather, hash_keys(seed, 0), [&](auto node_index) {
+                n.gather_representative = draw_leaf(points.topology(), n.gather, of_point, [&](auto node_index) {
                     return channel_sum(points.times().at(node_index, instant));
                 });
-                n.light_representative = draw_leaf(light_tree, n.light, hash_keys(seed, 1), [&](auto node_index) {
+                n.light_representative = draw_leaf(lights.topology(), n.light, of_light, [&](auto node_index) {
                     return channel_sum(times.at(node_index, instant));
                 });
                 return;
             }
         }
-        n.gather_representative = draw_gather_point(points, n.gather, hash_keys(seed, 0));
-        n.light_representative = draw_leaf(light_tree, n.light, hash_keys(seed, 1), [&](auto node_index) {
-            return channel_sum(lights.clusters()[node_index].intensity);
-        });
+        n.gather_representative = draw_gather_point(points, n.gather, of_point);
+        if (lights.topology().is_leaf(n.light)) {
+            n.light_representative = n.light;
+        } else if (purpose == Purpose::refine) {
+            n.light_representative = lights.representatives().draw(n.light, of_light);
+        } else {
+            n.light_representative = draw_leaf(lights.topology(), n.light, of_light, [&](auto node_index) {
+                return channel_sum(lights.clusters()[node_index].intensity);
+            });
+        }
     }
 
     /// One of the gather points below a node, by strength. A pair draws one of its own among all: those of one cluster
@@ -344,11 +357,6 @@ private:
             n = uniform01(hash_keys(seed, n)) * (of_left + of_right) < of_left ? left : right;
         }
         return n;
-    }
-
-    /// Of choices of one `purpose` at a node.
-    std::uint64_t seed_of(const Node& n, std::uint32_t purpose) const {
-        return hash_keys(options_.cut.seed, options_.id, purpose, n.gather_kind, n.light_kind, n.gather, n.light);
     }
 
     static std::uint32_t draw_common_instant(const TimeVectors<S>& strengths, ClusterTree::node_index gather,

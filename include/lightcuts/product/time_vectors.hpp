@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -12,18 +11,15 @@
 
 #include "../core/assertion.hpp"
 #include "../core/invalid_input.hpp"
-#include "../core/random.hpp"
 #include "../core/spectrum.hpp"
 #include "../tree/cluster_tree.hpp"
 
 namespace lightcuts {
 
 /// What each node of a binary tree amounts to at each of T instants, of leaves that exist at one instant each: the sum
-/// over the leaves below [Multidimensional Lightcuts 2006, section 3.2], and for each instant a leaf that represents
-/// the node, with probability leaf / node (over seeds). Only instants at which a node has something are stored: a node
-/// of few leaves has a sparse vector, one of very many a dense one.
-/// memory: 6 bytes and a spectrum for each instant of a node; N leaves at random instants have less than N (2 +
-/// log2(min(N, T))) of them.
+/// over the leaves below [Multidimensional Lightcuts 2006, section 3.2]. Only instants at which a node has something
+/// are stored: a node of few leaves has a sparse vector, one of very many a dense one. memory: 2 bytes and a spectrum
+/// for each instant of a node; N leaves at random instants have less than N (2 + log2(min(N, T))) of them.
 template <Spectrum S>
 class TimeVectors {
 public:
@@ -36,8 +32,7 @@ public:
     /// throws: invalid_input naming the item whose instant is not below `instants`, or if there are more than 65,536
     /// instants. cost: O(stored instants).
     template <std::invocable<std::uint32_t> InstantOf, std::invocable<std::uint32_t> ValueOf>
-    void build(const ClusterTree& tree, std::uint32_t instants, std::uint64_t seed, const InstantOf& instant_of,
-               const ValueOf& value_of) {
+    void build(const ClusterTree& tree, std::uint32_t instants, const InstantOf& instant_of, const ValueOf& value_of) {
         LIGHTCUTS_ASSERT(tree.is_binary());
         if (instants < 1 || instants > max_instants) {
             LIGHTCUTS_THROW(invalid_input("instants: " + std::to_string(instants) + " is not in 1 to 65536"));
@@ -46,7 +41,6 @@ public:
         begin_.clear();
         instant_.clear();
         value_.clear();
-        leaf_.clear();
         begin_.push_back(0);
         for (node_index n = 0; n < tree.size(); ++n) {
             if (tree.is_leaf(n)) {
@@ -56,9 +50,9 @@ public:
                     LIGHTCUTS_THROW(invalid_input("item " + std::to_string(item) + ": instant " + std::to_string(t) +
                                                   " is not below " + std::to_string(instants)));
                 }
-                append(t, value_of(item), n);
+                append(t, value_of(item));
             } else {
-                merge(tree.left(n), tree.right(n), hash_keys(seed, n));
+                merge(tree.left(n), tree.right(n));
             }
             if (value_.size() > (std::numeric_limits<std::uint32_t>::max)()) {
                 LIGHTCUTS_THROW(invalid_input("time vectors: more than 2^32 instants of nodes"));
@@ -72,7 +66,6 @@ public:
         begin_.shrink_to_fit();
         instant_.shrink_to_fit();
         value_.shrink_to_fit();
-        leaf_.shrink_to_fit();
     }
 
     std::uint32_t instants() const { return instants_; }
@@ -89,16 +82,9 @@ public:
         const std::size_t i = find(n, instant);
         return i == none ? black<S>() : value_[i];
     }
-    /// The leaf that represents node n at an instant. pre: n has something then.
-    node_index representative(node_index n, std::uint32_t instant) const {
-        const std::size_t i = find(n, instant);
-        LIGHTCUTS_ASSERT(i != none);
-        return leaf_[i];
-    }
-
     std::size_t memory_bytes() const {
         return begin_.capacity() * sizeof(std::uint32_t) + instant_.capacity() * sizeof(std::uint16_t) +
-               value_.capacity() * sizeof(S) + leaf_.capacity() * sizeof(node_index);
+               value_.capacity() * sizeof(S);
     }
 
     /// Calls `f(instant, a, b)`, in ascending order, for each instant at which both nodes have something; a and b are
@@ -122,29 +108,24 @@ public:
 private:
     static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
-    void append(std::uint32_t instant, const S& value, node_index leaf) {
+    void append(std::uint32_t instant, const S& value) {
         instant_.push_back(static_cast<std::uint16_t>(instant));
         value_.push_back(value);
-        leaf_.push_back(leaf);
     }
 
     /// Appends the sum of the vectors of two nodes.
-    void merge(node_index a, node_index b, std::uint64_t seed) {
+    void merge(node_index a, node_index b) {
         std::size_t i = begin_[a], j = begin_[b];
         const std::size_t end_i = begin_[a + 1], end_j = begin_[b + 1];
         while (i < end_i || j < end_j) {
             if (j == end_j || (i < end_i && instant_[i] < instant_[j])) {
-                append(instant_[i], S(value_[i]), leaf_[i]);
+                append(instant_[i], S(value_[i]));
                 ++i;
             } else if (i == end_i || instant_[j] < instant_[i]) {
-                append(instant_[j], S(value_[j]), leaf_[j]);
+                append(instant_[j], S(value_[j]));
                 ++j;
             } else {
-                const std::uint32_t instant = instant_[i];
-                const double of_a = channel_sum(value_[i]), of_b = channel_sum(value_[j]);
-                const double r = uniform01(hash_keys(seed, instant));
-                const bool takes_a = of_a + of_b > 0 ? r * (of_a + of_b) < of_a : r < 0.5;
-                append(instant, finite(S(value_[i] + value_[j])), leaf_[takes_a ? i : j]);
+                append(instant_[i], finite(S(value_[i] + value_[j])));
                 ++i;
                 ++j;
             }
@@ -165,7 +146,6 @@ private:
     std::vector<std::uint32_t> begin_;  ///< of each node's part of the arrays below; one more at the end
     std::vector<std::uint16_t> instant_;
     std::vector<S> value_;
-    std::vector<node_index> leaf_;
 };
 
 }  // namespace lightcuts

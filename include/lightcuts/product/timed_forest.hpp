@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "../core/invalid_input.hpp"
-#include "../core/random.hpp"
 #include "../cut/forest.hpp"
 #include "time_vectors.hpp"
 #include "timed_light.hpp"
@@ -32,13 +31,12 @@ public:
     /// Kinds without instants only: one instant.
     explicit TimedForest(const forest_type& forest) requires(!timed) : forest_(forest) {}
 
-    /// `seed`: of the choice of each cluster's representative at each instant.
     /// throws: invalid_input if `instants` is not in 1 to 65536, or naming the light whose instant is not below it.
     /// memory: see TimeVectors.
-    TimedForest(const forest_type& forest, std::uint32_t instants, std::uint64_t seed = 1)
-        : forest_(forest), instants_(instants) {
-        build(std::index_sequence_for<Ls...>{}, seed);
+    TimedForest(const forest_type& forest, std::uint32_t instants) : forest_(forest), instants_(instants) {
+        build(std::index_sequence_for<Ls...>{});
     }
+
     const forest_type& forest() const { return forest_; }
     std::uint32_t instants() const { return instants_; }
 
@@ -71,17 +69,17 @@ private:
     static std::tuple<Times<Ks>...> times_type(std::index_sequence<Ks...>);
 
     template <std::size_t... Ks>
-    void build(std::index_sequence<Ks...>, std::uint64_t seed) {
-        (build_kind<Ks>(hash_keys(seed, Ks)), ...);
+    void build(std::index_sequence<Ks...>) {
+        (build_kind<Ks>(), ...);
     }
     template <std::size_t K>
-    void build_kind([[maybe_unused]] std::uint64_t seed) {
+    void build_kind() {
         using L = Kind<K>;
         if constexpr (TimedLight<L>) {
             const LightTree<L>& tree = forest_.template tree<K>();
             auto& times = std::get<K>(times_);
             times.build(
-                tree.topology(), instants_, seed, [&](std::uint32_t i) { return instant_of(tree.lights()[i]); },
+                tree.topology(), instants_, [&](std::uint32_t i) { return instant_of(tree.lights()[i]); },
                 [&](std::uint32_t i) { return detail::intensity_of(tree.lights()[i]); });
             times.shrink_to_fit();
         }

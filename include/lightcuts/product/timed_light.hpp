@@ -39,10 +39,15 @@ constexpr std::uint32_t instant_of(const L& light) {
     }
 }
 
-/// A light of kind `L` that exists at one instant: a kind of its own, with a tree of its own.
+/// A light of kind `L` that exists at one instant: a kind of its own, with a tree of its own. pre: `L` can be derived
+/// from.
 template <class L>
 struct InstantLight : L {
     std::uint32_t instant = 0;
 };
+
+/// What the traits of `L` say of it holds for its instants too.
+template <class L>
+struct light_traits<InstantLight<L>> : light_traits<L> {};
 
 }  // namespace lightcuts

@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include "../core/assertion.hpp"
 #include "../core/box.hpp"
 #include "../core/rounding.hpp"
 #include "../light/incidence.hpp"
@@ -37,8 +38,10 @@ class UniformMedium {
 public:
     /// Fills no space.
     UniformMedium() = default;
-    /// `extinction`: per unit of length, >= 0; 0: no medium.
-    UniformMedium(float extinction, const Box& where) : extinction_(static_cast<double>(extinction)), where_(where) {}
+    /// `extinction`: per unit of length, >= 0, finite; 0: no medium.
+    UniformMedium(float extinction, const Box& where) : extinction_(static_cast<double>(extinction)), where_(where) {
+        LIGHTCUTS_ASSERT(extinction >= 0.0f && extinction - extinction == 0.0f);
+    }
 
     bool is_there() const { return extinction_ > 0.0; }
     float extinction() const { return static_cast<float>(extinction_); }
@@ -62,7 +65,7 @@ public:
     double way_inside(const glm::vec3& from, const glm::vec3& direction, double end) const {
         return share_inside(glm::dvec3(from), glm::dvec3(direction), end) * glm::length(glm::dvec3(direction));
     }
-    /// Where, in units of `direction`, a ray enters the medium, if it is outside.
+    /// Where, in units of `direction`, a ray enters the medium that is on its way; 0 if it begins inside.
     double way_before(const glm::vec3& from, const glm::vec3& direction) const {
         return range(glm::dvec3(from), glm::dvec3(direction), infinity).begin;
     }
@@ -139,13 +142,17 @@ struct NothingMany {};
 }  // namespace detail
 
 /// An oracle that sees through a medium: the answers of `oracle`, one by one or many at once, times the transmittance
-/// from where the shadow ray starts to the light. Refers to both.
+/// from where the shadow ray starts to the light. Refers to both. What `oracle` says of whole clusters is not asked.
 template <class Oracle, Medium M>
-class ThroughMedium
-    : public std::conditional_t<detail::has_many<Oracle>(), detail::ManyThroughMedium<ThroughMedium<Oracle, M>, Oracle>,
-                                detail::NothingMany<Oracle>> {
+class ThroughMedium : public std::conditional_t<detail::has_many<Oracle>() || BatchedOracle<Oracle>,
+                                                detail::ManyThroughMedium<ThroughMedium<Oracle, M>, Oracle>,
+                                                detail::NothingMany<Oracle>> {
 public:
     ThroughMedium(const Oracle& oracle, const M& medium) : oracle_(oracle), medium_(medium) {}
+    /// It would refer to what is gone.
+    ThroughMedium(const Oracle&&, const M&) = delete;
+    ThroughMedium(const Oracle&, const M&&) = delete;
+    ThroughMedium(const Oracle&&, const M&&) = delete;
 
     template <class R, Light L>
         requires ScalarOracle<Oracle, R, L>

@@ -1,0 +1,58 @@
+#include <cstdlib>
+#include <new>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <lightcuts/product/gather.hpp>
+#include "product/gather_scene.hpp"
+
+namespace {
+std::size_t allocations = 0;
+}
+
+// Not inlined, or GCC takes malloc's memory in one for a mismatch in the other.
+[[gnu::noinline]] void* operator new(std::size_t size) {
+    ++allocations;
+    if (void* p = std::malloc(size)) return p;
+    throw std::bad_alloc();
+}
+[[gnu::noinline]] void operator delete(void* p) noexcept { std::free(p); }
+[[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept { std::free(p); }
+
+namespace lightcuts::test {
+namespace {
+
+TEST(GatherAllocation, DoesNotHappenOnceTreesAndScratchAreWarm) {
+    Random random(1);
+    Room<V> room(1);
+    const auto still = room.oriented(300);
+    const auto moving = at_instants(room.omni(300), 4);
+    const LightTree still_tree(still), other_tree(still);
+    const LightTree moving_tree(moving);
+    const LightForest forest(still_tree, moving_tree);
+    const TimedForest timed(forest, 4);
+    const auto occluders = room.occluders();
+    const ScalarOccluders scalar{occluders};
+    const BatchedOccluders batched{occluders};
+    const auto diffuse = at_instants(diffuse_points(random, 60, 0.2, 0.5), 4);
+    const auto glossy = at_instants(glossy_points(random, 60, 0.2, 0.5), 4);
+    GatherForest<InstantGatherPoint<Lambert<V>, V>, InstantGatherPoint<ModifiedPhong<V>, V>> points;
+    gather_scratch_of<decltype(timed)> one, other;
+    gather_scratch_of<decltype(other_tree)> still_scratch;
+    const ProductOptions redraw{.redraw = true};
+    const auto everything = [&] {
+        points.build(diffuse, glossy, {.instants = 4});
+        gather(timed, points, scalar, one);
+        gather(timed, points, batched, other);
+        gather(timed, points, batched, other, redraw);
+        gather(other_tree, points, batched, still_scratch);
+    };
+    everything();
+    const std::size_t before = allocations;
+    everything();
+    EXPECT_EQ(allocations, before);
+}
+
+}  // namespace
+}  // namespace lightcuts::test
