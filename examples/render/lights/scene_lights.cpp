@@ -45,6 +45,6 @@ InstantSceneLights::InstantSceneLights(const Scene& scene, const Options& option
       virtual_at_(make_tree(scene.at_instants.virtual_lights, options)),
       forest_(Forest::forest_type(omni_, oriented_, spots_, directional_, spheres_, virtual_, omni_at_, oriented_at_,
                                   spots_at_, directional_at_, spheres_at_, virtual_at_),
-              static_cast<std::uint32_t>(scene.instants.size()), options.seed) {}
+              static_cast<std::uint32_t>(scene.instants.size())) {}
 
 }  // namespace render

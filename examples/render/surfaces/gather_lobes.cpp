@@ -35,10 +35,9 @@ lightcuts::CosineLobe<glm::vec3> DiffuseLobe::cosine_lobe() const {
     return lightcuts::Lambert{normal, glm::vec3(1.0f)}.cosine_lobe();
 }
 
-GlossyLobe::GlossyLobe(const SurfacePoint& p)
-    : geometric_normal_(p.geometric_normal),
+GlossyLobe::GlossyLobe(const SurfacePoint& p) : geometric_normal_(p.geometric_normal), lobe_(lobe_of(p)) {}
 
-      glm::vec3 GlossyLobe::evaluate(const glm::vec3& to_light) const {
+glm::vec3 GlossyLobe::evaluate(const glm::vec3& to_light) const {
     return std::visit(
         [&]<class M>(const M& lobe) {
             return lightcuts::AboveHorizon<const M&>{lobe, geometric_normal_}.evaluate(to_light);
