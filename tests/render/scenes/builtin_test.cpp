@@ -132,7 +132,8 @@ TEST(Builtin, LightsStayOffGeometry) {
 
 TEST(Builtin, BadNames) {
     const auto refused = [](const std::string& name) { return refusal([&] { load_scene(name); }); };
-    EXPECT_THAT(refused("builtin:cave"), HasSubstr("hall, omni, directional, surfaces, tableau, colonnade, screens"));
+    EXPECT_THAT(refused("builtin:cave"),
+                HasSubstr("hall, omni, directional, surfaces, tableau, wheel, colonnade, screens"));
     for (const char* name : {"builtin:omni?lights=0", "builtin:omni?lights=-4", "builtin:omni?lights=",
                              "builtin:omni?x=1", "builtin:omni?lights=5x", "builtin:surfaces?rotated=2"}) {
         EXPECT_THAT(refused(name), HasSubstr("lights=N")) << name;
