@@ -19,6 +19,8 @@ double blackman_harris(double x) {
     return 0.35875 - 0.48829 * std::cos(t) + 0.14128 * std::cos(2.0 * t) - 0.01168 * std::cos(3.0 * t);
 }
 
+}  // namespace
+
 /// Where a filter's integral reaches each share of the whole.
 class InverseIntegral {
 public:
@@ -45,19 +47,21 @@ private:
     std::array<double, steps + 1> integral_;
 };
 
-}  // namespace
-
 const std::vector<std::string>& pixel_filters() {
     static const std::vector<std::string> names = {"box", "gaussian", "blackman-harris"};
     return names;
 }
 
-glm::vec2 filtered(const std::string& filter, const glm::vec2& point) {
-    if (filter == "box") return point;
+PixelFilter::PixelFilter(const std::string& name) : integral_(nullptr) {
     static const InverseIntegral of_gaussian(gaussian), of_blackman_harris(blackman_harris);
-    const InverseIntegral& integral = filter == "gaussian" ? of_gaussian : of_blackman_harris;
-    return {static_cast<float>(0.5 + integral.at(static_cast<double>(point.x))),
-            static_cast<float>(0.5 + integral.at(static_cast<double>(point.y)))};
+    if (name == "gaussian") integral_ = &of_gaussian;
+    if (name == "blackman-harris") integral_ = &of_blackman_harris;
+}
+
+glm::vec2 PixelFilter::operator()(const glm::vec2& point) const {
+    if (!integral_) return point;
+    return {static_cast<float>(0.5 + integral_->at(static_cast<double>(point.x))),
+            static_cast<float>(0.5 + integral_->at(static_cast<double>(point.y)))};
 }
 
 }  // namespace render

@@ -47,7 +47,8 @@ class TileRenderer {
 public:
     TileRenderer(const MovingView& view, const EyePathTracer& surfaces, const Shader& shader, const Options& options,
                  Picture& picture)
-        : view_(view), surfaces_(surfaces), shader_(shader), options_(options), picture_(picture) {}
+        : view_(view), surfaces_(surfaces), shader_(shader), options_(options), filter_(options.filter),
+          picture_(picture) {}
 
     /// Fills the tile's pixels; nothing if it is interrupted.
     std::optional<RenderStatistics> render(const Tile& tile, Workspace& work) const {
@@ -97,7 +98,7 @@ private:
         } else {
             at.offset = pixel_offset(options_.seed, pixel, sample, options_.spp);
         }
-        const glm::vec2 offset = filtered(options_.filter, at.offset);
+        const glm::vec2 offset = filter_(at.offset);
         return view.ray(static_cast<float>(x) + offset.x, static_cast<float>(y) + offset.y, at.lens);
     }
 
@@ -205,6 +206,7 @@ private:
     const EyePathTracer& surfaces_;
     const Shader& shader_;
     const Options& options_;
+    PixelFilter filter_;
     Picture& picture_;
 };
 

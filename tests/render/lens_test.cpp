@@ -82,7 +82,7 @@ TEST(PixelFilter, RaysAreAsDenseAsItIsHigh) {
         double squares = 0.0, sum = 0.0;
         constexpr int count = 20'000;
         for (int i = 0; i < count; ++i) {
-            const glm::vec2 p = render::filtered(filter, glm::vec2((static_cast<float>(i) + 0.5f) / count, 0.3f));
+            const glm::vec2 p = render::PixelFilter(filter)(glm::vec2((static_cast<float>(i) + 0.5f) / count, 0.3f));
             const double x = static_cast<double>(p.x) - 0.5;
             sum += x;
             squares += x * x;
@@ -99,7 +99,7 @@ TEST(PixelFilter, RaysAreAsDenseAsItIsHigh) {
                 }),
                 1e-4);
     for (const std::string& filter : render::pixel_filters()) {
-        const glm::vec2 middle = render::filtered(filter, glm::vec2(0.5f));
+        const glm::vec2 middle = render::PixelFilter(filter)(glm::vec2(0.5f));
         EXPECT_NEAR(middle.x, 0.5f, 1e-5f) << filter;
         EXPECT_NEAR(middle.y, 0.5f, 1e-5f) << filter;
     }

@@ -120,9 +120,14 @@ public:
     }
 
     void many(std::span<const lightcuts::VisibilityQuery> queries, std::span<float> answers) const {
-        embree_.many(
-            queries, answers, [this](const lightcuts::VisibilityQuery& query) { return shadow_end(scene_, query); },
-            [this](const lightcuts::VisibilityQuery& query) { return time_of_receiver(scene_, query.receiver); });
+        const auto end_of = [this](const lightcuts::VisibilityQuery& query) { return shadow_end(scene_, query); };
+        if (scene_.is_still()) {
+            embree_.many(queries, answers, end_of);
+        } else {
+            embree_.many(queries, answers, end_of, [this](const lightcuts::VisibilityQuery& query) {
+                return time_of_receiver(scene_, query.receiver);
+            });
+        }
         if (scene_.fog.is_there()) lightcuts::attenuate(scene_.fog.medium, queries, answers);
     }
 

@@ -55,13 +55,8 @@ public:
         if (lambert_.albedo != glm::vec3(0.0f)) {
             f(AboveHorizon<const lightcuts::Lambert<>&>{lambert_, geometric_normal_});
         }
-        if (const auto* phong = std::get_if<lightcuts::ModifiedPhong<>>(&gloss_)) {
-            f(AboveHorizon<const lightcuts::ModifiedPhong<>&>{*phong, geometric_normal_});
-        } else if (const auto* ggx = std::get_if<lightcuts::Ggx<>>(&gloss_)) {
-            f(AboveHorizon<const lightcuts::Ggx<>&>{*ggx, geometric_normal_});
-        } else if (const auto* phase = std::get_if<lightcuts::HenyeyGreenstein<>>(&gloss_)) [[unlikely]] {
-            f(*phase);
-        }
+        // Most surfaces are diffuse, and are asked but this.
+        if (gloss_.index() != 0) for_gloss(f);
         if (is_thin_) [[unlikely]] {
             f(AboveHorizon{lightcuts::Lambert{-lambert_.normal, transmitted_}, -geometric_normal_});
         }
@@ -72,6 +67,18 @@ public:
     }
 
 private:
+    template <class F>
+    void for_gloss(F& f) const {
+        using lightcuts::AboveHorizon;
+        if (const auto* phong = std::get_if<lightcuts::ModifiedPhong<>>(&gloss_)) {
+            f(AboveHorizon<const lightcuts::ModifiedPhong<>&>{*phong, geometric_normal_});
+        } else if (const auto* ggx = std::get_if<lightcuts::Ggx<>>(&gloss_)) {
+            f(AboveHorizon<const lightcuts::Ggx<>&>{*ggx, geometric_normal_});
+        } else if (const auto* phase = std::get_if<lightcuts::HenyeyGreenstein<>>(&gloss_)) {
+            f(*phase);
+        }
+    }
+
     glm::vec3 geometric_normal_;
     lightcuts::Lambert<> lambert_;
     glm::vec3 transmitted_;

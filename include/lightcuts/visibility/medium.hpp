@@ -47,11 +47,13 @@ public:
     float extinction() const { return static_cast<float>(extinction_); }
 
     float transmittance(const glm::vec3& from, const glm::vec3& to) const {
+        if (!is_there()) return 1.0f;
         const glm::dvec3 way = glm::dvec3(to) - glm::dvec3(from);
         return through(share_inside(glm::dvec3(from), way, 1.0) * glm::length(way));
     }
     /// `direction`: unit.
     float transmittance_to_infinity(const glm::vec3& from, const glm::vec3& direction) const {
+        if (!is_there()) return 1.0f;
         return through(share_inside(glm::dvec3(from), glm::dvec3(direction), infinity));
     }
     /// The largest transmittance between a point of `a` and one of `b`; 1 unless both lie in the medium.
