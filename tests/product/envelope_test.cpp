@@ -1,5 +1,7 @@
 #include <lightcuts/product/envelope.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -11,6 +13,7 @@
 #include <lightcuts/material/lambert.hpp>
 #include <lightcuts/material/phase_function.hpp>
 #include <lightcuts/material/phong.hpp>
+#include <lightcuts/material/ward.hpp>
 #include "support/random.hpp"
 
 namespace lightcuts::test {
@@ -22,7 +25,7 @@ using V = glm::vec3;
 /// horizon, anywhere.
 glm::dvec3 some_direction(Random& random, const glm::dvec3& normal, const glm::dvec3& mirror) {
     const double kind = random.unit();
-    if (kind < 0.5) return random.near(mirror, random.decades(-6.0, 0.0));
+    if (kind < 0.5) return random.near(mirror, random.decades(-7.0, 0.0));
     if (kind < 0.7) {
         const glm::dvec3 side = random.on_sphere();
         const glm::dvec3 level = glm::normalize(side - glm::dot(side, normal) * normal);
@@ -44,7 +47,10 @@ void expect_dominates(const MakeLobe& make_lobe) {
         for (std::size_t i = 0; i < count; ++i) {
             const V n(glm::normalize(V(random.near(normal, spread)))), v(glm::normalize(V(random.near(view, spread))));
             lobes.push_back(make_lobe(random, n, v));
-            mirror = glm::dvec3(2.0f * glm::dot(n, v) * n - v);
+            if constexpr (requires { lobes.back().main_direction(); }) {
+                const glm::dvec3 main(lobes.back().main_direction());
+                if (glm::length(main) > 0.0) mirror = main;
+            }
         }
         auto envelope = detail::envelope_of_lobe(lobes[0]);
         for (const auto& lobe : lobes) envelope = merge(envelope, detail::envelope_of_lobe(lobe));
@@ -82,7 +88,7 @@ TEST(Envelope, OfPhongDominatesEachLobe) {
 }
 TEST(Envelope, OfGgxDominatesEachLobe) {
     expect_dominates([](Random& random, const V& n, const V& v) {
-        return Ggx<V>(n, v, V(random.real(0, 1), 0.04f, 0.0f), static_cast<float>(random.decades(-4.0, 0.3)),
+        return Ggx<V>(n, v, V(random.real(0, 1), 0.04f, 0.0f), static_cast<float>(random.decades(-7.0, 0.3)),
                       random.real(0, 1));
     });
 }
@@ -99,6 +105,36 @@ TEST(Envelope, OfHenyeyGreensteinDominatesEachPhaseFunction) {
             return HenyeyGreenstein<V>(v, V(random.real(0, 1), 1.0f, 0.0f), random.chance(0.1) ? 0.0f : g);
         });
     }
+}
+
+/// Nowhere does a lobe reflect more than near its main direction, which is longer for a sharper lobe.
+template <class MakeLobe>
+void expect_main_direction(const MakeLobe& make_lobe) {
+    Random random(3);
+    const V n(0.0f, 0.0f, 1.0f), v = glm::normalize(V(0.6f, 0.0f, 0.8f));
+    float before = 0.0f;
+    for (const float sharpness : {0.05f, 0.5f, 0.95f}) {
+        const auto lobe = make_lobe(n, v, sharpness);
+        const V main = lobe.main_direction();
+        EXPECT_GT(glm::length(main), before);
+        EXPECT_LE(glm::length(main), 4.0001f);
+        before = glm::length(main);
+        if (sharpness < 0.9f) continue;
+        float elsewhere = 0.0f;
+        for (int i = 0; i < 10'000; ++i) {
+            const V o(random.on_sphere());
+            if (glm::dot(o, glm::normalize(main)) < 0.9f) elsewhere = std::max(elsewhere, lobe.evaluate(o).x);
+        }
+        EXPECT_GT(lobe.evaluate(glm::normalize(main)).x, 2.0f * elsewhere);
+    }
+}
+
+TEST(MainDirection, IsWhereALobeReflectsMost) {
+    expect_main_direction(
+        [](const V& n, const V& v, float s) { return ModifiedPhong<V>(n, v, V(1.0f), std::exp2(8.0f * s)); });
+    expect_main_direction([](const V& n, const V& v, float s) { return Ggx<V>(n, v, V(1.0f), 1.0f - s); });
+    expect_main_direction([](const V& n, const V& v, float s) { return Ward<V>(n, v, V(1.0f), 1.0f - s); });
+    expect_main_direction([](const V&, const V& v, float s) { return HenyeyGreenstein<V>(v, V(1.0f), s); });
 }
 
 }  // namespace

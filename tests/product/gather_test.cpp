@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <glm/common.hpp>
 
 #include "product/gather_scene.hpp"
 
@@ -191,6 +192,54 @@ TEST(Gather, OfOnePointIsItsLightcut) {
         EXPECT_EQ(result.cut_size, cut.cut_size);
         EXPECT_EQ(result.queries, cut.queries);
         EXPECT_EQ(result.pairs, 500.0);
+    }
+}
+
+TEST(Gather, AdaptationOfOnePointIsThatOfTheSum) {
+    Random random(3);
+    Room<V> room(3);
+    const auto lights = room.oriented(500);
+    const LightTree tree(lights);
+    for (const DiffusePoint& p : diffuse_points(random, 10, 1.0, 3.0)) {
+        if (channel_sum(p.strength) == 0.0) continue;
+        LightcutOptions options{.adaptation = 0.02f};
+        const auto result = gather(tree, std::vector{p}, AlwaysVisible{}, ProductOptions{.cut = options});
+        options.adaptation /= channel_max(p.strength);
+        EXPECT_EQ(result.cut_size, shade(tree, p.receiver, AlwaysVisible{}, options).cut_size);
+    }
+}
+
+TEST(Gather, VirtualLightsAreClampedByTransfer) {
+    for (std::uint64_t seed = 0; seed < 8; ++seed) {
+        Random random(seed);
+        Room<V> room(seed);
+        std::vector<VirtualPointLight<V>> lights;
+        for (const auto& l : room.oriented(150)) lights.push_back({l});
+        const LightTree tree(lights);
+        const auto occluders = room.occluders();
+        const ScalarOccluders oracle{occluders};
+        const auto points = diffuse_points(random, 12, 0.3, 1.0);
+        constexpr float limit = 0.05f;
+        glm::dvec3 truth(0.0);
+        for (const auto& p : points) {
+            for (const auto& l : lights) {
+                truth += glm::dvec3(glm::min(unshadowed_transfer(p.receiver, l), V(limit))) *
+                         static_cast<double>(oracle(p.receiver, l)) * glm::dvec3(p.strength) * glm::dvec3(l.intensity);
+            }
+        }
+        EXPECT_LT(truth.x, sum_of_pairs(points, lights, oracle).x);
+        ProductOptions options = exact;
+        options.cut.clamp.transfer = limit;
+        expect_near(gather(tree, points, oracle, options).radiance, truth, 2e-5);
+        options.cut.error_ratio = 0.1f;
+        expect_within_bound(gather(tree, points, oracle, options), truth);
+        // Nothing is known of the only pair but that no light adds more.
+        options.cut.max_cut = 1;
+        const V bound = gather(tree, points, oracle, options).error_bound;
+        const V weight = tree.clusters()[tree.topology().root()].intensity;
+        V strength(0.0f);
+        for (const auto& p : points) strength += p.strength;
+        for (int c = 0; c < 3; ++c) EXPECT_LE(bound[c], 1.0001f * limit * weight[c] * strength[c]);
     }
 }
 
