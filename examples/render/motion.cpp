@@ -13,6 +13,8 @@
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 
+#include "bounding_box.hpp"
+
 namespace render {
 
 namespace {
@@ -23,16 +25,6 @@ constexpr std::uint32_t most_steps = 128;
 constexpr std::size_t most_vertices = std::size_t{1} << 25;
 /// How far vertices may be off their path, as a share of their extent.
 constexpr double tolerance = 1.0 / 4000.0;
-
-double extent_of(const std::vector<glm::vec3>& positions) {
-    glm::dvec3 low(positions.front());
-    glm::dvec3 high(low);
-    for (const glm::vec3& p : positions) {
-        low = glm::min(low, glm::dvec3(p));
-        high = glm::max(high, glm::dvec3(p));
-    }
-    return glm::length(high - low);
-}
 
 /// The frames of a path at multiples of 1 / most_steps, each computed once.
 class Frames {
@@ -140,7 +132,7 @@ void add_motion(Scene& scene, std::uint32_t first, std::uint32_t count, std::uin
     const auto limit = static_cast<std::uint32_t>(
         std::clamp<std::size_t>(std::bit_floor(most_vertices / count), 1, most_steps));
     std::uint32_t steps = std::min(std::bit_ceil(std::clamp(least_steps, 1u, most_steps)), limit);
-    const double largest = tolerance * extent_of(frames.at(0).positions);
+    const double largest = tolerance * std::sqrt(lightcuts::diagonal2(bounding_box(frames.at(0).positions)));
     while (steps < limit && frames.deviation(steps) > largest) steps *= 2;
     for (std::uint32_t step = 0; step <= steps; ++step) frames.at(step * (Frames::last / steps));
     if (frames.all_equal()) return;

@@ -11,6 +11,7 @@
 #include <lightcuts/bound/attenuated.hpp>
 #include <lightcuts/product/gather.hpp>
 
+#include "bounding_box.hpp"
 #include "interrupt.hpp"
 #include "lights/scene_lights.hpp"
 #include "rays/oracle.hpp"
@@ -40,9 +41,7 @@ public:
         product_.cut.error_ratio = options.error_ratio;
         if (options.is_given("--max-cut")) product_.cut.max_cut = options.max_cut;
         product_.cut.seed = options.seed;
-        lightcuts::Box box;
-        for (const glm::vec3& p : scene.positions) box = lightcuts::merge(box, lightcuts::box_of(p));
-        tree_.scene_diagonal = std::sqrt(lightcuts::diagonal2(box));
+        tree_.scene_diagonal = std::sqrt(lightcuts::diagonal2(bounding_box(scene.positions)));
         if constexpr (std::same_as<Lights, InstantSceneLights>) tree_.instants = forest.instants();
         adapt(options.adaptation.value_or(0.0f));
     }

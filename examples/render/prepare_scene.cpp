@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "bounding_box.hpp"
 #include "io/light_table.hpp"
 #include "io/load_scene.hpp"
 #include "io/validate.hpp"
@@ -17,8 +18,7 @@ namespace render {
 namespace {
 
 void add_fog(Scene& scene, const Options& options) {
-    lightcuts::Box box;
-    for (const glm::vec3& p : scene.positions) box = lightcuts::merge(box, lightcuts::box_of(p));
+    const lightcuts::Box box = bounding_box(scene.positions);
     // Points of the surfaces themselves lie inside.
     const auto margin = static_cast<float>(0.01 * std::sqrt(lightcuts::diagonal2(box)));
     scene.fog = {lightcuts::UniformMedium(options.fog, {box.lo - margin, box.hi + margin}), options.fog_albedo,

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <span>
 
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
@@ -45,13 +44,6 @@ struct Triangle {
     /// are from it.
     double scale_at(const glm::dvec3& p) const { return std::max(largest_coordinate(p), reach(p)); }
 };
-
-/// The area of `triangles` together.
-inline double area_of(const Scene& scene, std::span<const std::uint32_t> triangles) {
-    double area = 0;
-    for (const std::uint32_t t : triangles) area += Triangle(scene, t).area();
-    return area;
-}
 
 /// Distance from their surface at which rays begin, as a share of `Triangle::scale_at`: some thirty steps of a float.
 inline constexpr double ray_offset_share = 4e-6;

@@ -1,5 +1,3 @@
-#include <cstdlib>
-#include <new>
 #include <span>
 #include <vector>
 
@@ -12,20 +10,8 @@
 #include <lightcuts/estimate/stochastic_lightcuts.hpp>
 #include <lightcuts/estimate/tree_sampling.hpp>
 #include <lightcuts/estimate/ward.hpp>
+#include "support/allocations.hpp"
 #include "support/scene.hpp"
-
-namespace {
-std::size_t allocations = 0;
-}
-
-// Not inlined, or GCC takes malloc's memory in one for a mismatch in the other.
-[[gnu::noinline]] void* operator new(std::size_t size) {
-    ++allocations;
-    if (void* p = std::malloc(size)) return p;
-    throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* p) noexcept { std::free(p); }
-[[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept { std::free(p); }
 
 namespace lightcuts::test {
 namespace {

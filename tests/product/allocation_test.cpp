@@ -1,24 +1,10 @@
-#include <cstdlib>
-#include <new>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include <lightcuts/product/gather.hpp>
 #include "product/gather_scene.hpp"
-
-namespace {
-std::size_t allocations = 0;
-}
-
-// Not inlined, or GCC takes malloc's memory in one for a mismatch in the other.
-[[gnu::noinline]] void* operator new(std::size_t size) {
-    ++allocations;
-    if (void* p = std::malloc(size)) return p;
-    throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* p) noexcept { std::free(p); }
-[[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept { std::free(p); }
+#include "support/allocations.hpp"
 
 namespace lightcuts::test {
 namespace {

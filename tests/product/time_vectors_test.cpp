@@ -101,7 +101,8 @@ TEST(TimeVectors, RefuseAnInstantThatThereIsNot) {
 }
 
 // Where there is one instant, nothing of time is stored.
-static_assert(sizeof(ProductNode<V, false>) < sizeof(ProductNode<V, true>));
+static_assert(std::same_as<gather_scratch_of<LightTree<OmniLight<V>>>,
+                           gather_scratch_of<TimedForest<InstantLight<OmniLight<V>>>>>);
 static_assert(sizeof(TimedForest<OmniLight<V>>) <= sizeof(LightForest<OmniLight<V>>) + 8);
 
 }  // namespace

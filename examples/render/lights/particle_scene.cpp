@@ -4,6 +4,7 @@
 
 #include <glm/common.hpp>
 
+#include "bounding_box.hpp"
 #include "surfaces/lobe_sampling.hpp"
 #include "surfaces/surface_colors.hpp"
 #include "surfaces/surface_geometry.hpp"
@@ -42,9 +43,7 @@ ParticleScene::ParticleScene(const Scene& scene, const RayScene& rays, Shade sha
     for (const glm::uvec3& triangle : scene.triangles) {
         for (int i = 0; i < 3; ++i) bounds_ = merge(bounds_, lightcuts::box_of(scene.positions[triangle[i]]));
     }
-    for (const MovingVertices& part : scene.moving) {
-        for (const glm::vec3& p : part.positions) bounds_ = merge(bounds_, lightcuts::box_of(p));
-    }
+    for (const MovingVertices& part : scene.moving) bounds_ = merge(bounds_, bounding_box(part.positions));
 }
 
 std::optional<ParticleScene::Hit> ParticleScene::intersect(const glm::vec3& origin, const glm::vec3& direction) const {

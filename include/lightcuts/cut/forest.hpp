@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "../core/kinds.hpp"
 #include "../light/clampable.hpp"
 #include "../material/material.hpp"
 #include "../tree/light_tree.hpp"
@@ -42,13 +43,13 @@ public:
     /// Calls `f(tree)` with the tree of kind `kind` and returns its result. pre: kind < kinds.
     template <class F>
     decltype(auto) visit(std::uint32_t kind, F&& f) const {
-        return visit_from<0>(kind, f);
+        return detail::visit_kind<kinds>(kind, [&](auto k) -> decltype(auto) { return f(tree<k>()); });
     }
 
     /// Calls `f(kind, tree)` for each kind in order.
     template <class F>
     void for_each(F&& f) const {
-        for_each_from<0>(f);
+        detail::for_each_kind<kinds>([&](auto k) { f(static_cast<std::uint32_t>(k), tree<k>()); });
     }
 
     /// Number of trees with at least one lit light: the smallest cut.
@@ -73,21 +74,6 @@ public:
     }
 
 private:
-    template <std::size_t K, class F>
-    decltype(auto) visit_from([[maybe_unused]] std::uint32_t kind, F& f) const {
-        if constexpr (K + 1 == sizeof...(Ls)) {
-            return f(*std::get<K>(trees_));
-        } else {
-            return kind == K ? f(*std::get<K>(trees_)) : visit_from<K + 1>(kind, f);
-        }
-    }
-
-    template <std::size_t K, class F>
-    void for_each_from(F& f) const {
-        f(static_cast<std::uint32_t>(K), *std::get<K>(trees_));
-        if constexpr (K + 1 < sizeof...(Ls)) for_each_from<K + 1>(f);
-    }
-
     std::tuple<const LightTree<Ls>*...> trees_;
 };
 

@@ -56,14 +56,11 @@ using scratch_of = LightcutScratch<forest_spectrum<T>, forest_of<T>::clamps>;
 
 namespace detail {
 
-template <class Forest>
-RefinementOptions refinement_options(const Forest& forest, const LightcutOptions& options) {
+/// The starting frontier is kept whatever `max_cut` is: no cut is smaller than the trees are many.
+inline RefinementOptions refinement_options(const LightcutOptions& options) {
     RefinementOptions refinement;
     refinement.round_fraction = options.round_fraction;
-    if (options.max_cut > 0) {
-        const std::size_t roots = forest.root_count();
-        refinement.max_nodes = options.max_cut > roots ? options.max_cut : roots;
-    }
+    if (options.max_cut > 0) refinement.max_nodes = options.max_cut;
     return refinement;
 }
 
@@ -132,7 +129,7 @@ public:
     Lightcut(const Lights& lights, const R& receiver, const Oracle& oracle, const LightcutOptions& options = {},
              const Policy& policy = {})
         : forest_(as_forest(lights)), receiver_(receiver), oracle_(oracle), options_(options), policy_(policy),
-          refinement_options_(detail::refinement_options(forest_, options_)) {
+          refinement_options_(detail::refinement_options(options_)) {
         auto p = problem();
         refinement_.start(p);
         evaluate_fresh(p);
@@ -211,7 +208,7 @@ template <class Forest, class M, class Oracle, class Policy>
                                         const Oracle& oracle, std::span<CutResult<typename Forest::spectrum>> results,
                                         LightcutScratch<typename Forest::spectrum, Forest::clamps>& scratch,
                                         const LightcutOptions& options, const Policy& policy) {
-    const RefinementOptions refinement = refinement_options(forest, options);
+    const RefinementOptions refinement = refinement_options(options);
     if (scratch.in_progress.empty()) scratch.in_progress.resize(1);
     auto& slot = scratch.in_progress.front();
     for (std::size_t i = 0; i < receivers.size(); ++i) {
@@ -228,7 +225,7 @@ template <class Forest, class M, class Oracle, class Policy>
                                           LightcutScratch<typename Forest::spectrum, Forest::clamps>& scratch,
                                           const LightcutOptions& options, const Policy& policy) {
     using S = typename Forest::spectrum;
-    const RefinementOptions refinement = refinement_options(forest, options);
+    const RefinementOptions refinement = refinement_options(options);
     const auto problem_of = [&](std::size_t i, auto& slot) {
         return LightcutProblem<Forest, Receiver<M>, Oracle, Policy>(forest, receivers[i], oracle, policy, options,
                                                                     slot.total, slot.queries, scratch.queries);

@@ -12,12 +12,13 @@
 #include "refinement.hpp"
 #include "representative_batch.hpp"
 #include "running_total.hpp"
+#include "total_criterion.hpp"
 
 namespace lightcuts {
 
 /// Lightcuts as a refinement problem, for one receiver [Lightcuts 2005, section 3]. A view of the caller's data.
 template <class Forest, class R, class Oracle, class Policy>
-class LightcutProblem {
+class LightcutProblem : public detail::TotalCriterion<detail::RunningTotal<typename Forest::spectrum, Forest::clamps>> {
 public:
     using S = typename Forest::spectrum;
     static constexpr bool clamps = Forest::clamps;
@@ -37,8 +38,7 @@ public:
     LightcutProblem(const Forest& forest, const R& receiver, const Oracle& oracle, const Policy& policy,
                     const LightcutOptions& options, Total& total, std::uint32_t& queries,
                     ReusableList<VisibilityQuery>& query_list)
-        : forest_(forest), options_(options), total_(total), queries_(queries), receiver_id_(receiver.id),
-          threshold_(static_cast<double>(options.error_ratio)),
+        : Criterion(total, options), forest_(forest), options_(options), queries_(queries), receiver_id_(receiver.id),
           representatives_(forest, receiver, oracle, options.clamp, query_list),
           bounder_(forest, receiver, oracle, policy) {}
 
@@ -77,7 +77,7 @@ public:
     void tighten(ReusableList<Node>& frontier, std::span<RefinementCandidate> candidates) const {
         const double threshold = threshold_ / total_.priority_scale();
         bounder_.tighten(
-            frontier, candidates, [this](const Node& n) { return priority(n); }, threshold);
+            frontier, candidates, [this](const Node& n) { return this->priority(n); }, threshold);
     }
 
     /// Finds the transfer of new representatives; a batched oracle's queries go to the caller's list.
@@ -105,22 +105,10 @@ public:
         return answers;
     }
 
-    bool is_final(const Node& n) const { return is_black(n.bound); }
-
-    template <class Visit>
-    void observe(const Visit& visit) {
-        total_.update(visit, floor());
-    }
     template <class Visit>
     bool revise(const Visit& visit) requires clamps {
-        return total_.revise(visit, floor());
+        return total_.revise(visit, floor_);
     }
-
-    void checkpoint() { total_.checkpoint(); }
-    double priority_scale() const { return total_.priority_scale(); }
-    double priority_spread() const { return total_.priority_spread(); }
-    double priority(const Node& n) const { return total_.priority(n, threshold_); }
-    double threshold() const { return threshold_; }
 
     /// Clusters around the receiver, whose bounds are infinite, go by intensity over squared diagonal. (The cosine that
     /// might go with it cannot be asked of the material.)
@@ -132,6 +120,11 @@ public:
     }
 
 private:
+    using Criterion = detail::TotalCriterion<Total>;
+    using Criterion::floor_;
+    using Criterion::threshold_;
+    using Criterion::total_;
+
     /// What a cut starts from.
     enum class Start : std::uint8_t { lights, frontier, roots };
 
@@ -145,8 +138,6 @@ private:
         // A cut that is limited to few clusters chooses each of them.
         return options_.max_cut == 0 || options_.max_cut >= 8 * forest_.start_count() ? Start::frontier : Start::roots;
     }
-
-    double floor() const { return 0.1 * static_cast<double>(options_.adaptation); }
 
     /// What is known of a cluster's transfer without looking at it.
     template <class Tree>
@@ -217,10 +208,8 @@ private:
 
     const Forest& forest_;
     const LightcutOptions& options_;
-    Total& total_;
     std::uint32_t& queries_;
     std::uint32_t receiver_id_;
-    double threshold_;
     detail::RepresentativeBatch<Forest, R, Oracle> representatives_;
     detail::ClusterBounder<Forest, R, Oracle, Policy> bounder_;
 };

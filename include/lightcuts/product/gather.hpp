@@ -27,14 +27,13 @@ struct GatherResult : CutResult<S> {
     double pairs = 0.0;  ///< gather points times lights
 };
 
-/// Storage that `gather` reuses; one for each thread. No allocation once warm. `Timed`: some lights exist at instants;
-/// `Clamps`: some may be clamped.
-template <Spectrum S, bool Timed = false, bool Clamps = false>
+/// Storage that `gather` reuses; one for each thread. No allocation once warm. `Clamps`: some lights may be clamped.
+template <Spectrum S, bool Clamps = false>
 struct GatherScratch {
-    using Node = ProductNode<S, Timed>;
+    using Node = ProductNode<S>;
 
     Refinement<Node> refinement;
-    detail::RunningTotal<S, false, Node> total;
+    detail::ProductTotal<S> total;
     ReusableList<Node> redrawn;
     ReusableList<VisibilityQuery> queries;
     std::vector<float> answers;
@@ -77,7 +76,6 @@ concept GatherableLights = requires {
 /// The scratch for gathering from such lights.
 template <GatherableLights T>
 using gather_scratch_of = GatherScratch<typename detail::GatherLights<std::remove_cvref_t<T>>::type::spectrum,
-                                        detail::GatherLights<std::remove_cvref_t<T>>::type::timed,
                                         detail::GatherLights<std::remove_cvref_t<T>>::type::forest_type::clamps>;
 
 namespace detail {
@@ -115,7 +113,7 @@ GatherResult<typename Lights::spectrum> gather_pairs(const Lights& lights, const
                                                      Scratch& scratch, const ProductOptions& options,
                                                      const Policy& policy) {
     using S = typename Lights::spectrum;
-    using Node = ProductNode<S, Lights::timed>;
+    using Node = ProductNode<S>;
     if constexpr (!Lights::timed) {
         if (points.point_count() == 1 && !options.redraw) {
             GatherResult<S> result;
@@ -130,9 +128,7 @@ GatherResult<typename Lights::spectrum> gather_pairs(const Lights& lights, const
     std::uint32_t queries = 0;
     ProductProblem<Lights, Points, Oracle, Policy> problem(lights, points, oracle, policy, options, scratch.total,
                                                            queries, scratch.queries);
-    RefinementOptions refinement;
-    refinement.round_fraction = options.cut.round_fraction;
-    if (options.cut.max_cut > 0) refinement.max_nodes = options.cut.max_cut;
+    const RefinementOptions refinement = refinement_options(options.cut);
     const auto evaluate = [&](std::span<Node> fresh) {
         if constexpr (AnswersMany<Oracle, S>) {
             scratch.queries.clear();
@@ -195,8 +191,10 @@ GatherResult<typename Lights::spectrum> gather_pairs(const Lights& lights, const
 /// pre: where lights have instants, `points` was built with as many.
 /// threads: safe with one scratch and one GatherForest each. cost: about one shadow ray for two pairs on the cut, and
 /// the bounds of four pairs; of lobes without an envelope, such as sums, a bound takes as long as there are points
-/// below. The sum over a single gather point is its lightcut. throws: invalid_input if `options` ask for clamping by
-/// radiance or share, or the instants of lights and points differ.
+/// below. The sum over a single gather point is its lightcut.
+///
+/// throws: invalid_input if `options` ask for clamping by radiance or share, or the instants of lights and points
+/// differ
 template <GatherableLights Lights, AnyGatherPoint... Gs, class Oracle, class Policy = TwoStageBounds>
 GatherResult<typename GatherForest<Gs...>::spectrum> gather(const Lights& lights, const GatherForest<Gs...>& points,
                                                             const Oracle& oracle, gather_scratch_of<Lights>& scratch,
@@ -209,7 +207,7 @@ GatherResult<typename GatherForest<Gs...>::spectrum> gather(const Lights& lights
         if (Lights::timed && points.instants() != lights.instants()) {
             LIGHTCUTS_THROW(invalid_input("gather: the lights have " + std::to_string(lights.instants()) +
                                           " instants, the trees of gather points were built with " +
-                                          std::to_string(points.instants())));
+                                          std::to_string(points.instants()) + "; build them with as many"));
         }
         return detail::gather_pairs(lights, points, oracle, scratch, options, policy);
     } else {

@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "../core/kinds.hpp"
 #include "gather_tree.hpp"
 
 namespace lightcuts {
@@ -39,12 +40,12 @@ public:
     /// Calls `f(tree)` with the tree of kind `kind` and returns its result. pre: kind < kinds.
     template <class F>
     decltype(auto) visit(std::uint32_t kind, F&& f) const {
-        return visit_from<0>(kind, f);
+        return detail::visit_kind<kinds>(kind, [&](auto k) -> decltype(auto) { return f(std::get<k>(trees_)); });
     }
     /// Calls `f(kind, tree)` for each kind in order.
     template <class F>
     void for_each(F&& f) const {
-        for_each_from<0>(f);
+        detail::for_each_kind<kinds>([&](auto k) { f(static_cast<std::uint32_t>(k), std::get<k>(trees_)); });
     }
 
     /// Number of gather points that have any strength.
@@ -59,20 +60,6 @@ private:
     void build_from(std::index_sequence<Ks...>, const GatherTreeOptions& options, std::span<const Gs>... points) {
         (std::get<Ks>(trees_).build(points, options), ...);
     }
-    template <std::size_t K, class F>
-    decltype(auto) visit_from([[maybe_unused]] std::uint32_t kind, F& f) const {
-        if constexpr (K + 1 == sizeof...(Gs)) {
-            return f(std::get<K>(trees_));
-        } else {
-            return kind == K ? f(std::get<K>(trees_)) : visit_from<K + 1>(kind, f);
-        }
-    }
-    template <std::size_t K, class F>
-    void for_each_from(F& f) const {
-        f(static_cast<std::uint32_t>(K), std::get<K>(trees_));
-        if constexpr (K + 1 < sizeof...(Gs)) for_each_from<K + 1>(f);
-    }
-
     std::tuple<GatherTree<Gs>...> trees_;
     std::uint32_t instants_ = 1;
 };

@@ -30,11 +30,11 @@ public:
     bool is_full() const { return count_ == lanes; }
     void clear() { count_ = 0; }
     void add(std::uint32_t gather, std::uint32_t light) {
-        if constexpr (std::is_reference_v<decltype(gather_tree_.bound(gather))>) {
-            bounds_[count_] = &gather_tree_.bound(gather);
-        } else {
+        if constexpr (by_value) {
             made_[count_] = gather_tree_.bound(gather);
             bounds_[count_] = &made_[count_];
+        } else {
+            bounds_[count_] = &gather_tree_.bound(gather);
         }
         boxes_[count_] = &gather_tree_.clusters()[gather].box;
         clusters_[count_] = &light_tree_.clusters()[light];
@@ -49,9 +49,7 @@ public:
 
 private:
     static constexpr std::size_t lanes = static_cast<std::size_t>(lane_count);
-    struct NoBounds {
-        B& operator[](std::size_t) const;
-    };
+    struct NoBounds {};
     static constexpr bool by_value = !std::is_reference_v<decltype(std::declval<const GatherTree&>().bound(0))>;
 
     const GatherTree& gather_tree_;
@@ -69,7 +67,7 @@ template <class Lights, class Points, class Policy>
 class PairBounder {
 public:
     using S = typename Lights::spectrum;
-    using Node = ProductNode<S, Lights::timed>;
+    using Node = ProductNode<S>;
 
     PairBounder(const Lights& lights, const Points& points, const Policy& policy)
         : lights_(lights), points_(points), policy_(policy) {}

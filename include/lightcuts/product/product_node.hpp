@@ -1,26 +1,18 @@
 #pragma once
 
 #include <cstdint>
-#include <type_traits>
 
 #include "../core/spectrum.hpp"
-#include "../tree/light_cluster.hpp"
 
 namespace lightcuts {
-
-namespace detail {
-struct InstantTag {};
-}  // namespace detail
 
 /// Which side of a pair of clusters is split.
 enum class PairSide : std::uint8_t { undecided, gather, light };
 
 /// A pair of a cluster of gather points and a cluster of lights: a node of the product graph [Multidimensional
-/// Lightcuts 2006, section 3.1]. `Timed`: some lights exist at one instant only.
-template <Spectrum S, bool Timed = false>
+/// Lightcuts 2006, section 3.1].
+template <Spectrum S>
 struct ProductNode {
-    using Instant = std::conditional_t<Timed, std::uint16_t, detail::Empty<detail::InstantTag>>;
-
     std::uint32_t gather = 0;                 ///< node in its tree of gather points
     std::uint32_t light = 0;                  ///< node in its light tree
     std::uint32_t gather_representative = 0;  ///< leaf that stands for the gather points
@@ -32,12 +24,11 @@ struct ProductNode {
     S bound = black<S>();       ///< upper bound of the pair's error; 0 for one gather point and one light
     std::uint8_t gather_kind = 0;
     std::uint8_t light_kind = 0;
-    bool bounded = false;                     ///< `unit_bound` is the pair's own
-    bool queried = false;                     ///< `transfer` waits for the representatives, or for their shadow ray
-    PairSide side = PairSide::undecided;      ///< the side to split
-    std::uint8_t gather_splits = 0;           ///< splits of the gather side since the last of the light side
-    std::uint8_t light_splits = 0;            ///< splits of the light side since the last of the gather side
-    [[no_unique_address]] Instant instant{};  ///< of the representatives
+    bool bounded = false;                 ///< `unit_bound` is the pair's own
+    bool queried = false;                 ///< `transfer` waits for the representatives, or for their shadow ray
+    PairSide side = PairSide::undecided;  ///< the side to split
+    std::uint8_t gather_splits = 0;       ///< splits of the gather side since the last of the light side
+    std::uint8_t light_splits = 0;        ///< splits of the light side since the last of the gather side
 };
 
 }  // namespace lightcuts

@@ -12,6 +12,7 @@
 #include "../cut/options.hpp"
 #include "../cut/refinement.hpp"
 #include "../cut/running_total.hpp"
+#include "../cut/total_criterion.hpp"
 #include "../shading/shadow_origin.hpp"
 #include "../shading/transfer.hpp"
 #include "../visibility/oracle.hpp"
@@ -30,6 +31,9 @@ inline constexpr bool answers_points = false;
 template <class Oracle, AnyGatherPoint... Gs, class Forest>
 inline constexpr bool answers_points<Oracle, GatherForest<Gs...>, Forest> =
     (answers<Oracle, decltype(Gs::receiver), Forest> && ...);
+
+template <Spectrum S>
+using ProductTotal = RunningTotal<S, false, ProductNode<S>>;
 
 }  // namespace detail
 
@@ -54,7 +58,7 @@ struct ProductOptions {
 /// The sum over pairs of gather points and lights as a refinement problem: a cut through their product graph, which is
 /// never made [Multidimensional Lightcuts 2006, section 3]. A view of the caller's data.
 template <class Lights, class Points, class Oracle, class Policy>
-class ProductProblem {
+class ProductProblem : public detail::TotalCriterion<detail::ProductTotal<typename Lights::spectrum>> {
 public:
     using S = typename Lights::spectrum;
     static_assert(std::same_as<S, typename Points::spectrum>, "gather points and lights need the same spectrum");
@@ -64,16 +68,14 @@ public:
         "an oracle needs operator()(receiver, light) const, which returns a bool, a fraction or a spectrum of "
         "fractions, or many(queries, answers) const");
 
-    static constexpr bool timed = Lights::timed;
-    using Node = ProductNode<S, timed>;
-    using Total = detail::RunningTotal<S, false, Node>;
+    using Node = ProductNode<S>;
+    using Total = detail::ProductTotal<S>;
 
     ProductProblem(const Lights& lights, const Points& points, const Oracle& oracle, const Policy& policy,
                    const ProductOptions& options, Total& total, std::uint32_t& queries,
                    ReusableList<VisibilityQuery>& query_list)
-        : lights_(lights), points_(points), oracle_(oracle), options_(options), total_(total), queries_(queries),
-          query_list_(query_list), threshold_(static_cast<double>(options.cut.error_ratio)),
-          bounder_(lights, points, policy) {}
+        : Criterion(total, options.cut), lights_(lights), points_(points), oracle_(oracle), options_(options),
+          queries_(queries), query_list_(query_list), bounder_(lights, points, policy) {}
 
     void roots(ReusableList<Node>& out) {
         total_.start(options_.cut.clamp, lights_.forest());
@@ -141,7 +143,7 @@ public:
     void tighten(ReusableList<Node>& frontier, std::span<RefinementCandidate> candidates) const {
         const double threshold = threshold_ / total_.priority_scale();
         bounder_.tighten(
-            frontier, candidates, [this](const Node& n) { return priority(n); }, threshold);
+            frontier, candidates, [this](const Node& n) { return this->priority(n); }, threshold);
     }
 
     /// Finds the transfer of new representatives; a batched oracle's queries go to the caller's list.
@@ -185,19 +187,6 @@ public:
         });
     }
 
-    bool is_final(const Node& n) const { return is_black(n.bound); }
-
-    template <class Visit>
-    void observe(const Visit& visit_all) {
-        total_.update(visit_all, 0.1 * static_cast<double>(options_.cut.adaptation));
-    }
-
-    void checkpoint() { total_.checkpoint(); }
-    double priority_scale() const { return total_.priority_scale(); }
-    double priority_spread() const { return total_.priority_spread(); }
-    double priority(const Node& n) const { return total_.priority(n, threshold_); }
-    double threshold() const { return threshold_; }
-
     /// Pairs whose boxes touch, whose bounds are infinite, go by weight over squared diagonals.
     bool precedes(const Node& a, const Node& b) const {
         const double density_a = density(a), density_b = density(b);
@@ -208,6 +197,10 @@ public:
     }
 
 private:
+    using Criterion = detail::TotalCriterion<Total>;
+    using Criterion::threshold_;
+    using Criterion::total_;
+
     /// Of gather points and of lights.
     struct Kinds {
         std::uint8_t gather;
@@ -292,7 +285,6 @@ private:
             n.queried = false;
             n.gather_representative = heir_of->gather_representative;
             n.light_representative = heir_of->light_representative;
-            n.instant = heir_of->instant;
             n.transfer = heir_of->transfer;
             n.estimate = finite_product(n.transfer, n.weight);
         } else {
@@ -317,7 +309,6 @@ private:
         if constexpr (at_instants<LightTree>) {
             if (points.is_timed()) {
                 const std::uint32_t instant = draw_common_instant(points.times(), n.gather, times, n.light, seed);
-                n.instant = static_cast<std::uint16_t>(instant);
                 n.gather_representative = draw_leaf(points.topology(), n.gather, of_point, [&](auto node_index) {
                     return channel_sum(points.times().at(node_index, instant));
                 });
@@ -436,10 +427,8 @@ private:
     const Points& points_;
     const Oracle& oracle_;
     const ProductOptions& options_;
-    Total& total_;
     std::uint32_t& queries_;
     ReusableList<VisibilityQuery>& query_list_;
-    double threshold_;
     detail::PairBounder<Lights, Points, Policy> bounder_;
 };
 

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -68,15 +67,8 @@ public:
         value_.shrink_to_fit();
     }
 
-    std::uint32_t instants() const { return instants_; }
-    /// True if nothing was built.
-    bool empty() const { return begin_.size() <= 1; }
     /// The number of instants at which node n has something.
     std::size_t count(node_index n) const { return begin_[n + 1] - begin_[n]; }
-    /// The instants at which node n has something, ascending.
-    std::span<const std::uint16_t> instants_of(node_index n) const {
-        return std::span(instant_).subspan(begin_[n], count(n));
-    }
     /// What node n amounts to at an instant.
     S at(node_index n, std::uint32_t instant) const {
         const std::size_t i = find(n, instant);

@@ -6,7 +6,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "../core/invalid_input.hpp"
+#include "../core/kinds.hpp"
 #include "../cut/forest.hpp"
 #include "time_vectors.hpp"
 #include "timed_light.hpp"
@@ -34,7 +34,7 @@ public:
     /// throws: invalid_input if `instants` is not in 1 to 65536, or naming the light whose instant is not below it.
     /// memory: see TimeVectors.
     TimedForest(const forest_type& forest, std::uint32_t instants) : forest_(forest), instants_(instants) {
-        build(std::index_sequence_for<Ls...>{});
+        detail::for_each_kind<forest_type::kinds>([this](auto k) { build_kind<k>(); });
     }
 
     const forest_type& forest() const { return forest_; }
@@ -43,12 +43,14 @@ public:
     /// Calls `f(tree, times)` for kind `kind`: `times` is a `TimeVectors` if the kind is a TimedLight, else empty.
     template <class F>
     decltype(auto) visit(std::uint32_t kind, F&& f) const {
-        return visit_from<0>(kind, f);
+        return detail::visit_kind<forest_type::kinds>(
+            kind, [&](auto k) -> decltype(auto) { return f(forest_.template tree<k>(), std::get<k>(times_)); });
     }
     /// Calls `f(kind, tree, times)` for each kind in order.
     template <class F>
     void for_each(F&& f) const {
-        for_each_from<0>(f);
+        detail::for_each_kind<forest_type::kinds>(
+            [&](auto k) { f(static_cast<std::uint32_t>(k), forest_.template tree<k>(), std::get<k>(times_)); });
     }
 
     std::size_t memory_bytes() const {
@@ -68,10 +70,6 @@ private:
     template <std::size_t... Ks>
     static std::tuple<Times<Ks>...> times_type(std::index_sequence<Ks...>);
 
-    template <std::size_t... Ks>
-    void build(std::index_sequence<Ks...>) {
-        (build_kind<Ks>(), ...);
-    }
     template <std::size_t K>
     void build_kind() {
         using L = Kind<K>;
@@ -83,20 +81,6 @@ private:
                 [&](std::uint32_t i) { return detail::intensity_of(tree.lights()[i]); });
             times.shrink_to_fit();
         }
-    }
-
-    template <std::size_t K, class F>
-    decltype(auto) visit_from([[maybe_unused]] std::uint32_t kind, F& f) const {
-        if constexpr (K + 1 == sizeof...(Ls)) {
-            return f(forest_.template tree<K>(), std::get<K>(times_));
-        } else {
-            return kind == K ? f(forest_.template tree<K>(), std::get<K>(times_)) : visit_from<K + 1>(kind, f);
-        }
-    }
-    template <std::size_t K, class F>
-    void for_each_from(F& f) const {
-        f(static_cast<std::uint32_t>(K), forest_.template tree<K>(), std::get<K>(times_));
-        if constexpr (K + 1 < sizeof...(Ls)) for_each_from<K + 1>(f);
     }
 
     forest_type forest_;

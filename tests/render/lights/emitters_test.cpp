@@ -12,6 +12,7 @@
 #include <render/scenes/shapes.hpp>
 #include <render/triangle.hpp>
 
+#include "render/area_of.hpp"
 #include "render/refusal.hpp"
 
 namespace {

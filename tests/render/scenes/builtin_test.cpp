@@ -11,6 +11,7 @@
 #include <render/scenes/shapes.hpp>
 #include <render/triangle.hpp>
 
+#include "render/area_of.hpp"
 #include "render/refusal.hpp"
 
 namespace {
@@ -48,7 +49,7 @@ TEST(Builtin, HallIsAsStated) {
     ASSERT_EQ(panels.size(), 72u);
     for (const auto& panel : panels) {
         EXPECT_EQ(panel.triangles.size(), 2u);
-        EXPECT_NEAR(render::area_of(s, panel.triangles), 0.36, 1e-5);
+        EXPECT_NEAR(area_of(s, panel.triangles), 0.36, 1e-5);
         for (const std::uint32_t t : panel.triangles) EXPECT_LT(s.positions[s.triangles[t].x].y, 6.0f);
     }
     EXPECT_EQ(s.light_count(), 0u);

@@ -1,6 +1,4 @@
 #include <cstdint>
-#include <cstdlib>
-#include <new>
 #include <span>
 #include <vector>
 
@@ -8,20 +6,8 @@
 
 #include <lightcuts/tree/build/divide.hpp>
 #include <lightcuts/tree/representatives.hpp>
+#include "support/allocations.hpp"
 #include "tree/build/item_sets.hpp"
-
-namespace {
-std::size_t allocations = 0;
-}
-
-// Not inlined, or GCC takes malloc's memory in one for a mismatch in the other.
-[[gnu::noinline]] void* operator new(std::size_t size) {
-    ++allocations;
-    if (void* p = std::malloc(size)) return p;
-    throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* p) noexcept { std::free(p); }
-[[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept { std::free(p); }
 
 namespace lightcuts::test {
 namespace {

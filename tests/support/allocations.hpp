@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdlib>
+#include <new>
+
+namespace lightcuts::test {
+
+/// How often this program has allocated.
+inline std::size_t allocations = 0;
+
+}  // namespace lightcuts::test
+
+// Replaces the operators of the whole program: for one file of it only.
+// Not inlined, or GCC takes malloc's memory in one for a mismatch in the other.
+[[gnu::noinline]] void* operator new(std::size_t size) {
+    ++lightcuts::test::allocations;
+    if (void* p = std::malloc(size)) return p;
+    throw std::bad_alloc();
+}
+[[gnu::noinline]] void operator delete(void* p) noexcept { std::free(p); }
+[[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept { std::free(p); }
