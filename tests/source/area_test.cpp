@@ -362,6 +362,31 @@ TEST(AreaLights, OfAFlatSurfaceDoNotDependOnItsTriangles) {
     }
 }
 
+/// Where a surface is cut into as many pieces as its lights have shares, shares begin and end at corners of pieces. At
+/// the edge of two walls a light would shine on one of them only.
+TEST(AreaLights, OfARoomLieWithinItsWalls) {
+    Triangles walls;
+    for (int axis = 0; axis < 3; ++axis) {
+        for (const float side : {-1.0f, 1.0f}) {
+            const auto at = [&](float x, float y) {
+                V p(0.0f);
+                p[axis] = side, p[(axis + 1) % 3] = x, p[(axis + 2) % 3] = y;
+                return p;
+            };
+            walls.push_back({at(-1, -1), at(1, -1), at(1, 1), V(1.0f)});
+            walls.push_back({at(-1, -1), at(1, 1), at(-1, 1), V(1.0f)});
+        }
+    }
+    const EmissiveTriangles<V> emitter(walls);
+    for (const std::size_t count : {12u, 96u, 1024u, 3000u}) {
+        for (const auto& light : area_lights(emitter, count, CenteredRecurrence{})) {
+            int on_walls = 0;
+            for (int c = 0; c < 3; ++c) on_walls += std::fabs(light.position[c]) > 1.0f - 1e-5f ? 1 : 0;
+            EXPECT_EQ(on_walls, 1) << light.position.x << ' ' << light.position.y << ' ' << light.position.z;
+        }
+    }
+}
+
 TEST(AreaLights, LieOnAFlatSurfaceOfAnyOutline) {
     // A comb: half of its rectangle. Each light lies on the triangle that it is said to lie on.
     Triangles comb;

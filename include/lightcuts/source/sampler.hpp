@@ -92,16 +92,18 @@ struct IndependentSampler {
     }
 };
 
-/// Not random: each light is in the middle of its own share of the power (dimension 0 is always 1/2), and dimensions 2
-/// and 3 are the additive recurrence of the plastic number from the middle of the square [Roberts 2018], even for any
-/// count. Dimension 1 is that of the golden ratio; all others are `IndependentSampler`.
+/// Not random: each light is near the middle of its own share of the power (dimension 0 is from 3/8 to 5/8), and
+/// dimensions 2 and 3 are the additive recurrence of the plastic number from the middle of the square [Roberts 2018],
+/// even for any count. Dimensions 0 and 1 are recurrences too; all others are `IndependentSampler`.
 struct CenteredRecurrence {
     double operator()(std::uint32_t index, std::uint32_t dimension) const {
-        constexpr std::array starts{0.5, 0.0, 0.5, 0.5};
-        constexpr std::array steps{0.0, 0.6180339887498949, 0.7548776662466927, 0.5698402909980532};
+        constexpr std::array starts{0.5, 0.5, 0.5, 0.5};
+        constexpr std::array steps{0.8191725133961645, 0.6180339887498949, 0.7548776662466927, 0.5698402909980532};
         if (dimension >= steps.size()) return IndependentSampler{}(index, dimension);
         const double turn = starts[dimension] + steps[dimension] * static_cast<double>(index);
-        return turn - std::floor(turn);
+        const double fraction = turn - std::floor(turn);
+        // Not the middle itself: shares begin and end where pieces of a surface do, and so it often is a corner of one.
+        return dimension == 0 ? 0.375 + 0.25 * fraction : fraction;
     }
 };
 
