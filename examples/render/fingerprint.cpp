@@ -132,8 +132,9 @@ void add_scene(Fingerprint& print, const Scene& scene) {
     // Left out: names, counts and messages, and `lighting`, from which the lights and the background were made.
     const auto& [name, origin, positions, normals, tangents, colors, uv_sets, triangles, triangle_material, materials,
                  textures, cameras, omni, oriented, spots, directional, spheres, sphere_points, virtual_lights,
-                 environment_lights, sun_lights, sky_lights, ground_lights, moving, rigid_motions, at_instants,
-                 instants, lighting, background, fog, dropped_triangles, dropped_lights, left_out, files] = scene;
+                 volume_lights, environment_lights, sun_lights, sky_lights, ground_lights, moving, rigid_motions,
+                 at_instants, instants, lighting, background, fog, dropped_triangles, dropped_lights, left_out,
+                 files] = scene;
     ContentHash surfaces, matter, lights, around;
     surfaces.add(origin).add(positions).add(normals).add(tangents).add(colors).add(uv_sets.size());
     for (const std::vector<glm::vec2>& uvs : uv_sets) surfaces.add(uvs);
@@ -142,10 +143,11 @@ void add_scene(Fingerprint& print, const Scene& scene) {
     for (const Material& material : materials) add_to(matter, material);
     for (const Texture& texture : textures) add_to(matter, texture);
     lights.add(omni).add(oriented).add(spots).add(directional).add(spheres).add(sphere_points).add(virtual_lights);
+    lights.add(volume_lights);
     const auto& [moving_omni, moving_oriented, moving_spots, moving_directional, moving_spheres, moving_sphere_points,
-                 moving_virtual_lights] = at_instants;
+                 moving_virtual_lights, moving_volume_lights] = at_instants;
     lights.add(moving_omni).add(moving_oriented).add(moving_spots).add(moving_directional).add(moving_spheres);
-    lights.add(moving_sphere_points).add(moving_virtual_lights);
+    lights.add(moving_sphere_points).add(moving_virtual_lights).add(moving_volume_lights);
     add_to(around, background);
     print.add("the scene's triangles", text_of(surfaces));
     print.add("the scene's materials", text_of(matter));

@@ -140,8 +140,7 @@ void say_what_is_left_out(const Scene& scene, const Options& options) {
 
 /// Of an error that is that of clamping rather than of the method.
 void warn_of_clamped_reference(const Scene& scene, const Options& options) {
-    const bool has_virtual_lights = !scene.virtual_lights.empty() || !scene.at_instants.virtual_lights.empty();
-    if (options.quiet || options.reference.empty() || !has_virtual_lights || !options.is_clamp_idle()) return;
+    if (options.quiet || options.reference.empty() || scene.virtual_count() == 0 || !options.is_clamp_idle()) return;
     std::fprintf(stderr,
                  "lightcuts-render: warning: --method %s does not clamp virtual lights; compare it with a --reference "
                  "of --clamp off\n",
@@ -205,10 +204,7 @@ ExitStatus render_scene(Options options) {
         report.seconds.particles = watch.lap();
         const auto shader = make_shader(scene, rays, options);
         report.seconds.tree = watch.lap();
-        const double focus = options.focus ? static_cast<double>(*options.focus)
-                                           : glm::length(camera.target - camera.eye);
-        const MovingView view(camera, scene, options.width, options.height,
-                              {.aperture = static_cast<double>(options.aperture), .focus = focus});
+        const MovingView view(camera, scene, options.width, options.height, lens_of(options, camera));
         const EyePathTracer surfaces(scene, rays, shade);
         report.adaptation = options.adaptation ? *options.adaptation : measure_adaptation(view, surfaces, *shader);
         shader->adapt(report.adaptation);

@@ -182,7 +182,8 @@ const std::vector<std::string>& clamping_methods() {
 }
 
 const std::vector<std::string>& aov_names() {
-    static const std::vector<std::string> names = {"cut_size", "shadow_rays", "error_bound", "depth", "normal"};
+    static const std::vector<std::string> names = {"cut_size",    "shadow_rays", "gather_points", "instants",
+                                                   "error_bound", "depth",       "normal"};
     return names;
 }
 

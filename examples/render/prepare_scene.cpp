@@ -4,6 +4,8 @@
 #include <cmath>
 #include <string>
 
+#include <glm/geometric.hpp>
+
 #include "bounding_box.hpp"
 #include "io/light_table.hpp"
 #include "io/load_scene.hpp"
@@ -23,8 +25,6 @@ void add_fog(Scene& scene, const Options& options) {
     const auto margin = static_cast<float>(0.01 * std::sqrt(lightcuts::diagonal2(box)));
     scene.fog = {lightcuts::UniformMedium(options.fog, {box.lo - margin, box.hi + margin}), options.fog_albedo,
                  options.fog_anisotropy, std::max(4.0f, 64.0f / static_cast<float>(options.spp))};
-    if (options.indirect > 0)
-        leave_out(scene.left_out, "light that fog scatters to surfaces", "indirect light passes fog only");
 }
 
 /// Only gather points that have an instant can be lit by lights that have one.
@@ -57,5 +57,10 @@ Scene prepare_scene(Options& options) {
 }
 
 Shade shade_of(const Options& options) { return options.diffuse_materials ? Shade::diffuse : Shade::full; }
+
+Lens lens_of(const Options& options, const Camera& camera) {
+    const double focus = options.focus ? static_cast<double>(*options.focus) : glm::length(camera.target - camera.eye);
+    return {.aperture = static_cast<double>(options.aperture), .focus = focus};
+}
 
 }  // namespace render

@@ -3,6 +3,7 @@
 #include "options.hpp"
 #include "scene.hpp"
 #include "surfaces/surface_lobes.hpp"
+#include "view.hpp"
 
 namespace render {
 
@@ -14,5 +15,8 @@ namespace render {
 Scene prepare_scene(Options& options);
 
 Shade shade_of(const Options& options);
+
+/// Focused on the camera's target where the options do not say.
+Lens lens_of(const Options& options, const Camera& camera);
 
 }  // namespace render

@@ -33,6 +33,9 @@ struct PixelSum {
     int hits = 0;
     double cut_size = 0;
     double shadow_rays = 0;
+    double gather_points = 0;
+    double instants = 0;
+    int shadings = 0;
 };
 
 /// A thread's memory.
@@ -125,6 +128,7 @@ private:
         sum.error_bound += rays * glm::dvec3(shading.error_bound);
         sum.cut_size += rays * static_cast<double>(shading.cut_size);
         sum.shadow_rays += rays * static_cast<double>(shading.shadow_rays);
+        add_points(sum, shading);
         count(shading, statistics);
         statistics.points += work.points.size();
         work.points.clear();
@@ -149,16 +153,25 @@ private:
             }
             sum.cut_size += static_cast<double>(shading.cut_size);
             sum.shadow_rays += static_cast<double>(shading.shadow_rays);
+            add_points(sum, shading);
             count(shading, statistics);
         }
         statistics.points += work.points.size();
         work.points.clear();
     }
 
+    static void add_points(PixelSum& sum, const Shading& shading) {
+        sum.gather_points += static_cast<double>(shading.gather_points);
+        sum.instants += static_cast<double>(shading.instants);
+        ++sum.shadings;
+    }
+
     static void count(const Shading& shading, RenderStatistics& statistics) {
         ++statistics.cuts;
         statistics.shadow_rays += shading.shadow_rays;
         statistics.cut_nodes += shading.cut_size;
+        statistics.gather_points += shading.gather_points;
+        statistics.pairs += shading.pairs;
         statistics.largest_cut = std::max<std::uint64_t>(statistics.largest_cut, shading.cut_size);
         statistics.at_limit += shading.at_limit ? 1 : 0;
         for (int c = 0; c < 3; ++c) {
@@ -191,6 +204,8 @@ private:
                 if (picture_.channels.empty()) continue;
                 set("cut_size", pixel, sum.cut_size / rays);
                 set("shadow_rays", pixel, sum.shadow_rays / rays);
+                set("gather_points", pixel, sum.gather_points);
+                set("instants", pixel, sum.shadings > 0 ? sum.instants / sum.shadings : 0.0);
                 set("error_bound.R", pixel, bound.x);
                 set("error_bound.G", pixel, bound.y);
                 set("error_bound.B", pixel, bound.z);
@@ -224,6 +239,8 @@ void accumulate(RenderStatistics& total, const RenderStatistics& tile) {
     total.cuts += tile.cuts;
     total.shadow_rays += tile.shadow_rays;
     total.cut_nodes += tile.cut_nodes;
+    total.gather_points += tile.gather_points;
+    total.pairs += tile.pairs;
     total.largest_cut = std::max(total.largest_cut, tile.largest_cut);
     total.at_limit += tile.at_limit;
     total.error_bound_sum += tile.error_bound_sum;

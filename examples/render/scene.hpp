@@ -146,11 +146,14 @@ struct LightsAtInstants {
     std::vector<lightcuts::InstantLight<lightcuts::SphereLight<>>> spheres;
     std::vector<lightcuts::InstantLight<lightcuts::SpherePointLight<>>> sphere_points;  ///< in `spheres` of these
     std::vector<lightcuts::InstantLight<lightcuts::VirtualPointLight<>>> virtual_lights;
+    std::vector<lightcuts::InstantLight<lightcuts::VirtualVolumeLight<>>> volume_lights;
 
+    /// Those that stand for indirect light.
+    std::size_t virtual_count() const { return virtual_lights.size() + volume_lights.size(); }
     /// Those that are added up at a point: spheres count by their points.
     std::size_t count() const {
         return omni.size() + oriented.size() + spots.size() + directional.size() + sphere_points.size() +
-               virtual_lights.size();
+               virtual_count();
     }
 };
 
@@ -176,10 +179,11 @@ struct Scene {
     std::vector<lightcuts::SpotLight<>> spots;
     std::vector<lightcuts::DistantLight<>> directional;
     std::vector<lightcuts::SphereLight<>> spheres;
-    std::vector<lightcuts::SpherePointLight<>> sphere_points;  ///< in `spheres`
-    std::vector<lightcuts::VirtualPointLight<>> virtual_lights;
-    std::size_t environment_lights = 0;  ///< of `directional`: those of the environment map
-    std::size_t sun_lights = 0;          ///< likewise
+    std::vector<lightcuts::SpherePointLight<>> sphere_points;    ///< in `spheres`
+    std::vector<lightcuts::VirtualPointLight<>> virtual_lights;  ///< on surfaces
+    std::vector<lightcuts::VirtualVolumeLight<>> volume_lights;  ///< in fog
+    std::size_t environment_lights = 0;                          ///< of `directional`: those of the environment map
+    std::size_t sun_lights = 0;                                  ///< likewise
     std::size_t sky_lights = 0;
     std::size_t ground_lights = 0;
 
@@ -201,7 +205,11 @@ struct Scene {
     /// Those that are added up at a point, of all kinds: spheres count by their points.
     std::size_t light_count() const {
         return omni.size() + oriented.size() + spots.size() + directional.size() + sphere_points.size() +
-               virtual_lights.size() + at_instants.count();
+               virtual_count() + at_instants.count() - at_instants.virtual_count();
+    }
+    /// Those that stand for indirect light, at instants or not.
+    std::size_t virtual_count() const {
+        return virtual_lights.size() + volume_lights.size() + at_instants.virtual_count();
     }
     /// Nothing moves, neither what is seen nor the camera.
     bool is_still() const { return instants.empty(); }

@@ -23,8 +23,12 @@ struct Shading {
     /// Radiance that no virtual light exceeded; infinite if none was clamped.
     glm::vec3 clamp_threshold{std::numeric_limits<float>::infinity()};
     std::uint32_t cut_size = 0;
-    std::uint32_t shadow_rays = 0;  ///< queries answered by the visibility oracle
-    bool at_limit = false;          ///< the cut ended at its largest size, not at the error ratio
+    std::uint32_t shadow_rays = 0;    ///< queries answered by the visibility oracle
+    bool at_limit = false;            ///< the cut ended at its largest size, not at the error ratio
+    std::uint32_t gather_points = 1;  ///< that were summed up
+    double pairs = 0;                 ///< of gather points and lights, of methods that sum up pairs
+    /// Mean number of instants of the clusters of gather points on the cut, where `options.aovs` asks for it.
+    float instants = 1.0f;
 };
 
 /// A method of summing many lights. threads: `shade` may run at once with a scratch for each thread.

@@ -93,12 +93,12 @@ Json motion_json(const Scene& scene) {
     const LightsAtInstants& lights = scene.at_instants;
     return {{"instants", scene.instants.size()},
             {"triangles", triangles},
-            {"lights", lights.count() - lights.virtual_lights.size()}};
+            {"lights", lights.count() - lights.virtual_count()}};
 }
 
 /// How virtual lights were clamped; null if there are none.
 Json clamp_json(const RunReport& report) {
-    if (report.scene.virtual_lights.empty() && report.scene.at_instants.virtual_lights.empty()) return nullptr;
+    if (report.scene.virtual_count() == 0) return nullptr;
     const lightcuts::ClampingOptions clamp = report.options.clamping();
     const RenderStatistics& s = report.statistics;
     Json json;
@@ -154,7 +154,7 @@ Json to_json(const RunReport& report) {
                       {"sun", scene.sun_lights},
                       {"sky", scene.sky_lights},
                       {"ground", scene.ground_lights},
-                      {"virtual", scene.virtual_lights.size() + scene.at_instants.virtual_lights.size()}};
+                      {"virtual", scene.virtual_count()}};
     json["motion"] = motion_json(scene);
     json["seconds"] = {{"load", report.seconds.load},
                        {"particles", report.seconds.particles},
@@ -162,6 +162,8 @@ Json to_json(const RunReport& report) {
                        {"render", report.seconds.render}};
     json["shadow_rays"] = s.shadow_rays;
     json["shadow_rays_per_pixel"] = per(static_cast<double>(s.shadow_rays), s.pixels);
+    json["gather_points_per_pixel"] = per(static_cast<double>(s.gather_points), s.pixels);
+    json["pairs_per_pixel"] = s.pairs > 0.0 ? Json(per(s.pairs, s.pixels)) : Json(nullptr);
     json["cut_size"] = {
         {"mean", per(static_cast<double>(s.cut_nodes), s.cuts)}, {"max", s.largest_cut}, {"at_limit", s.at_limit}};
     json["error_bound"] = {{"mean", finite_or_null(per(s.error_bound_sum, s.pixels))},

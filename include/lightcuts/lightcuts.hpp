@@ -17,6 +17,7 @@
 #include "light/directional.hpp"
 #include "light/omni.hpp"
 #include "light/oriented.hpp"
+#include "light/scattering.hpp"
 #include "light/spot.hpp"
 #include "material/above_horizon.hpp"
 #include "material/bounded_by.hpp"

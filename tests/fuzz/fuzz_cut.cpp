@@ -36,7 +36,7 @@ namespace {
 using namespace lightcuts;
 using V = glm::vec3;
 using Forest = LightForest<OmniLight<V>, OmniLight<V, PolynomialFalloff>, OrientedPointLight<V>, SpotLight<V>,
-                           DistantLight<V>, VirtualPointLight<V>>;
+                           DistantLight<V>, VirtualPointLight<V>, VirtualVolumeLight<V>>;
 
 /// Numbers made of bytes; zeros when they are used up.
 class Bytes {
@@ -115,6 +115,7 @@ struct Lights {
     std::vector<SpotLight<V>> spot;
     std::vector<DistantLight<V>> distant;
     std::vector<VirtualPointLight<V>> virtual_lights;
+    std::vector<VirtualVolumeLight<V>> volume_lights;
 };
 
 Lights read_lights(Bytes& bytes) {
@@ -140,6 +141,10 @@ Lights read_lights(Bytes& bytes) {
                 break;
             }
             case 5: lights.distant.push_back({bytes.unit(), bytes.color(brightest)}); break;
+            case 6:
+                lights.volume_lights.push_back(
+                    {{bytes.point(), bytes.unit(), bytes.color(brightest), {bytes.between(0.0f, 0.9999f)}}});
+                break;
             default: lights.virtual_lights.push_back({{bytes.point(), bytes.unit(), bytes.color(brightest), {}}});
         }
     }
@@ -179,6 +184,7 @@ double underflow(const Lights& lights) {
     add(lights.spot);
     add(lights.distant);
     add(lights.virtual_lights);
+    add(lights.volume_lights);
     return 0x1p-126 * (sum + 64.0);
 }
 
@@ -246,7 +252,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const LightTree spot(lights.spot, options);
     const LightTree distant(lights.distant, options);
     const LightTree virtual_lights(lights.virtual_lights, options);
-    const Forest forest(omni, polynomial, oriented, spot, distant, virtual_lights);
+    const LightTree volume_lights(lights.volume_lights, options);
+    const Forest forest(omni, polynomial, oriented, spot, distant, virtual_lights, volume_lights);
     const double lost = underflow(lights);
     for (int i = 0; i < 16 && !bytes.empty(); ++i) shade_some(bytes, forest, lost);
     return 0;

@@ -12,6 +12,7 @@
 #include <lightcuts/light/directional.hpp>
 #include <lightcuts/light/omni.hpp>
 #include <lightcuts/light/oriented.hpp>
+#include <lightcuts/light/scattering.hpp>
 #include <lightcuts/light/spot.hpp>
 #include <lightcuts/material/above_horizon.hpp>
 #include <lightcuts/material/ggx.hpp>
@@ -235,6 +236,15 @@ struct LightMaker<SpotLight<>> {
         SpotProfile profile{static_cast<float>(std::cos(inner)), static_cast<float>(std::cos(outer))};
         if (!(profile.cos_outer < profile.cos_inner)) profile = {};
         return {c.positions[i], c.axes[i], c.intensities[i], profile};
+    }
+};
+
+template <>
+struct LightMaker<ScatteringPointLight<>> {
+    static ScatteringPointLight<> make(Random& random, const ClusterConfiguration& c, std::size_t i) {
+        const double narrow = random.chance(0.2) ? 1.0 : random.chance(0.5) ? random.unit() : random.decades(-4.0, 0.0);
+        const auto asymmetry = static_cast<float>(1.0 - narrow);
+        return {c.positions[i], c.axes[i], c.intensities[i], {asymmetry}};
     }
 };
 

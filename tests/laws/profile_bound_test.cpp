@@ -5,6 +5,8 @@ namespace {
 
 TEST(SpotBound, IsNeverBelowAnyLight) { expect_bounds_hold_over_all_materials<SpotLight<>>(7); }
 
+TEST(ScatteringBound, IsNeverBelowAnyLight) { expect_bounds_hold_over_all_materials<ScatteringPointLight<>>(9); }
+
 TEST(ProfileBound, IsNeverBelowAnyLight) { expect_bounds_hold_over_all_materials<RingLight>(8); }
 
 }  // namespace

@@ -133,6 +133,7 @@ TEST(ReceiverBox, BoundsDominateOmniLights) { expect_bounds_hold_over_boxes<Omni
 TEST(ReceiverBox, BoundsDominateOrientedLights) { expect_bounds_hold_over_boxes<OrientedPointLight<>>(2); }
 TEST(ReceiverBox, BoundsDominateDistantLights) { expect_bounds_hold_over_boxes<DistantLight<>>(3); }
 TEST(ReceiverBox, BoundsDominateSpots) { expect_bounds_hold_over_boxes<SpotLight<>>(4); }
+TEST(ReceiverBox, BoundsDominateScatteringLights) { expect_bounds_hold_over_boxes<ScatteringPointLight<>>(6); }
 
 /// Equal bit by bit; where products and sums are contracted, within some roundoffs.
 bool same(const V& a, const V& b) {

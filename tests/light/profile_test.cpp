@@ -1,8 +1,10 @@
 #include <cmath>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
 #include <lightcuts/light/falloff.hpp>
+#include <lightcuts/light/scattering.hpp>
 #include <lightcuts/light/spot.hpp>
 #include "support/random.hpp"
 
@@ -45,6 +47,47 @@ TEST(SpotProfile, MergedIsNowhereBelowEither) {
             EXPECT_LE(b(c), both.emission_bound(-1.0f, c));
             EXPECT_LE(both.emission_bound(-1.0f, c), 1.0f);
         }
+    }
+}
+
+TEST(ScatteringProfile, MergedIsNowhereBelowEither) {
+    Random random(3);
+    for (int trial = 0; trial < 20000; ++trial) {
+        const auto profile = [&] {
+            return ScatteringProfile{random.chance(0.1) ? 0.0f : static_cast<float>(1.0 - random.decades(-6.0, 0.0))};
+        };
+        const ScatteringProfile a = profile(), b = profile(), both = merge(a, b);
+        for (int i = 0; i < 20; ++i) {
+            const float c = i == 0 ? 1.0f : i == 1 ? -1.0f : random.real(-1.0, 1.0);
+            EXPECT_GE(a(c), 0.0f);
+            EXPECT_LE(a(c), both.emission_bound(-1.0f, c));
+            EXPECT_LE(b(c), both.emission_bound(c, c));
+            EXPECT_LE(both.emission_bound(-1.0f, c), 1.0f);
+        }
+        EXPECT_EQ(a(1.0f), 1.0f);
+        EXPECT_EQ(a(1.0f + 1e-7f), 1.0f);
+    }
+}
+
+/// The integral of its intensity over all directions is what it scatters, and the mean cosine that of the medium.
+TEST(ScatteringPointLight, EmitsItsPowerByThePhaseFunction) {
+    const glm::vec3 along(0.0f, 0.0f, 1.0f);
+    for (const float g : {0.0f, 0.5f, 0.9f, -0.3f, -0.99f}) {
+        const ScatteringPointLight<> light = scattering_point_light(glm::vec3(1.0f), along, glm::vec3(2.0f, 1.0f, 0.0f),
+                                                                    g);
+        EXPECT_EQ(light.axis.z, g < 0.0f ? -1.0f : 1.0f);
+        double power = 0.0, turned = 0.0;
+        constexpr int steps = 2000000;
+        for (int i = 0; i < steps; ++i) {
+            const double cosine = -1.0 + 2.0 * (i + 0.5) / steps;
+            const double sent = double(light.emission(float(cosine))) * 4.0 * std::numbers::pi / steps;
+            power += sent;
+            turned += sent * cosine * double(light.axis.z);
+        }
+        EXPECT_NEAR(power * double(light.intensity.x), 2.0, 2e-3) << g;
+        EXPECT_NEAR(power * double(light.intensity.y), 1.0, 1e-3) << g;
+        EXPECT_EQ(light.intensity.z, 0.0f);
+        EXPECT_NEAR(turned / power, double(g), 2e-3);
     }
 }
 

@@ -1,5 +1,7 @@
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -10,6 +12,14 @@
 #include <lightcuts/tree/light_tree.hpp>
 #include <lightcuts/visibility/medium.hpp>
 #include <render/fog.hpp>
+#include <render/io/validate.hpp>
+#include <render/lights/emitters.hpp>
+#include <render/lights/indirect.hpp>
+#include <render/lights/particle_scene.hpp>
+#include <render/moving_view.hpp>
+#include <render/rays/ray_scene.hpp>
+#include <render/render_loop.hpp>
+#include <render/shader.hpp>
 #include <render/surfaces/fog_points.hpp>
 
 namespace {
@@ -79,5 +89,89 @@ TEST(FogPoints, GiveTheIntegralOfScatteredLight) {
     }
     EXPECT_NEAR(sum / integral, 1.0, 2e-3);
 }
+
+/// Particles fly by the law of the fog, from where they enter it.
+TEST(FogParticles, StopByTheExponentialLaw) {
+    const render::Scene s;
+    const render::RayScene rays(s);
+    const render::FoggyParticleScene particles(render::ParticleScene(s, rays, render::Shade::full), some_fog(0.3f));
+    const V forward(0.0f, 0.0f, 1.0f);
+    for (const double u : {0.0, 0.2, 0.9}) {
+        const double way = -std::log(1.0 - u) / 0.3;
+        EXPECT_NEAR(particles.free_flight(V(0.0f), forward, u), way, 1e-6);
+        EXPECT_NEAR(particles.free_flight(V(0.0f, 0.0f, -15.0f), forward, u), way + 5.0, 1e-5);
+    }
+    // The way inside, 10 from the middle, is longer than this.
+    const double passes = -std::expm1(-0.3 * 10.0);
+    EXPECT_LT(particles.free_flight(V(0.0f), forward, passes - 1e-4), 10.0);
+    EXPECT_EQ(particles.free_flight(V(0.0f), forward, passes + 1e-4), std::numeric_limits<double>::infinity());
+    EXPECT_EQ(particles.free_flight(V(0.0f, 20.0f, 0.0f), forward, 0.5), std::numeric_limits<double>::infinity());
+    EXPECT_FLOAT_EQ(particles.scattering_at(V(0.0f)).albedo.x, 0.8f);
+    EXPECT_FLOAT_EQ(particles.scattering_at(V(0.0f)).asymmetry, 0.6f);
+}
+
+/// A closed room of side 2 whose walls emit radiance 1, albedo 0.5, filled with fog that absorbs nothing: the radiance
+/// is 1 / (1 - 0.5) everywhere and in all directions, whatever the fog.
+class FoggyFurnace : public testing::TestWithParam<float> {
+protected:
+    static render::Scene room(float extinction, float anisotropy) {
+        render::Scene s;
+        s.name = "furnace";
+        s.materials.resize(1);
+        s.materials[0].model = render::Material::Model::phong;
+        s.materials[0].base_color = V(0.5f);
+        s.materials[0].emission = V(1.0f);
+        for (int axis = 0; axis < 3; ++axis) {
+            for (const float side : {-1.0f, 1.0f}) {
+                const auto first = static_cast<std::uint32_t>(s.positions.size());
+                for (const glm::vec2 d : {glm::vec2(-1, -1), {1, -1}, {1, 1}, {-1, 1}}) {
+                    V p(0.0f);
+                    p[axis] = side;
+                    p[(axis + 1) % 3] = d.x;
+                    p[(axis + 2) % 3] = d.y;
+                    s.positions.push_back(p);
+                }
+                for (const glm::uvec3 t : {glm::uvec3(0, 1, 2), glm::uvec3(0, 2, 3)}) {
+                    s.triangles.push_back(first + (side < 0.0f ? t : glm::uvec3(t.x, t.z, t.y)));
+                    s.triangle_material.push_back(0);
+                }
+            }
+        }
+        s.fog = {lightcuts::UniformMedium(extinction, {V(-1.01f), V(1.01f)}), 1.0f, anisotropy, 8.0f};
+        render::validate(s);
+        render::add_emitter_lights(s, {.points = 1024});
+        render::add_virtual_lights(s, render::RayScene(s), 20000, render::Shade::full, 1);
+        return s;
+    }
+
+    static double radiance(const render::Scene& s) {
+        render::Options options;
+        options.method = "multidimensional";
+        options.spp = 8;
+        options.quiet = true;
+        options.clamp = {};
+        const render::RayScene rays(s);
+        const auto shader = render::make_shader(s, rays, options);
+        const render::EyePathTracer surfaces(s, rays, render::Shade::full);
+        render::Camera camera;
+        camera.eye = {0.1, 0.2, -0.3};
+        camera.target = {0.3, -0.2, 0.8};
+        camera.vertical_fov = 60.0f;
+        const render::MovingView view(camera, s, 8, 8);
+        double sum = 0.0;
+        const render::Picture picture = render::render_picture(view, surfaces, *shader, options).picture;
+        for (const V& p : picture.pixels) sum += static_cast<double>(p.y) / 64.0;
+        return sum;
+    }
+};
+
+TEST_P(FoggyFurnace, IsAsBrightAsWithoutFog) {
+    const render::Scene s = room(GetParam(), 0.4f);
+    EXPECT_EQ(s.volume_lights.size() > 100, GetParam() > 0.01f);
+    // Points of the fog lie close to lights in it, so that the sum varies widely.
+    EXPECT_NEAR(radiance(s), 2.0, 0.08);
+}
+
+INSTANTIATE_TEST_SUITE_P(Extinction, FoggyFurnace, testing::Values(1e-6f, 0.05f, 0.5f, 2.0f));
 
 }  // namespace

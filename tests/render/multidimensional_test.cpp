@@ -24,7 +24,8 @@ double mean_of(const Picture& picture, int channel = 0) {
 TEST_F(Programs, MultidimensionalPicturesAgreeWithTheSumOverAllPairs) {
     const std::string scene = "room.obj --area-points 300 --size 40x30 --spp 9 --quiet" + view;
     for (const std::string effect :
-         {"", " --aperture 0.4", " --fog 0.15 --fog-anisotropy 0.5", " --aperture 0.4 --fog 0.15 --filter gaussian"}) {
+         {"", " --aperture 0.4",
+          " --fog 0.15 --fog-anisotropy 0.5", " --aperture 0.4 --fog 0.15 --filter gaussian"}) {
         ASSERT_EQ(render(scene + effect + " --method exhaustive -o exact.exr").status, 0);
         for (const std::string method : {"multidimensional", "unified-cut"}) {
             ASSERT_EQ(render(scene + effect + " --reference exact.exr --method " + method).status, 0);
@@ -34,6 +35,17 @@ TEST_F(Programs, MultidimensionalPicturesAgreeWithTheSumOverAllPairs) {
             EXPECT_EQ(json.at("method"), method);
         }
     }
+}
+
+TEST_F(Programs, MultidimensionalPicturesOfLitFogAgreeWithTheSumOverAllPairs) {
+    const std::string scene = "room.obj --size 40x30 --spp 9 --fog 0.15 --fog-anisotropy 0.5 --indirect 3000 "
+                              "--clamp off --quiet" +
+                              view;
+    ASSERT_EQ(render(scene + " --method exhaustive -o exact.exr").status, 0);
+    ASSERT_EQ(render(scene + " --reference exact.exr --method multidimensional").status, 0);
+    const Json json = report("render.json");
+    EXPECT_LT(json.at("error").at("relative_rmse"), 0.025);
+    EXPECT_GT(json.at("lights").at("virtual"), 2000);
 }
 
 TEST_F(Programs, MultidimensionalErrorsAreWithinTheirBounds) {
@@ -46,6 +58,32 @@ TEST_F(Programs, MultidimensionalErrorsAreWithinTheirBounds) {
         for (int c = 0; c < 3; ++c) {
             const float bound = found.find("error_bound." + channels.substr(static_cast<std::size_t>(c), 1))->values[i];
             EXPECT_LE(std::abs(found.pixels[i][c] - exact.pixels[i][c]), bound + 1e-4f * exact.pixels[i][c]) << i;
+        }
+    }
+}
+
+TEST_F(Programs, ShowHowManyGatherPointsAndPairsThereAre) {
+    const std::string scene = "room.obj --area-points 300 --size 16x12 --spp 4 --quiet --aov gather_points,instants" +
+                              view;
+    for (const std::string method : {"lightcuts", "multidimensional"}) {
+        ASSERT_EQ(render(scene + " --method " + method).status, 0);
+        const Picture picture = render::read_exr(folder / "render.exr");
+        const Json json = report("render.json");
+        double sum = 0.0;
+        for (const float count : picture.find("gather_points")->values) sum += static_cast<double>(count);
+        const double each = sum / (16.0 * 12.0);
+        EXPECT_NEAR(json.at("gather_points_per_pixel"), each, 1e-6);
+        EXPECT_LE(each, 4.0);
+        EXPECT_GT(each, 2.0) << "one of a ray, where there is something to see";
+        const auto& counts = picture.find("gather_points")->values;
+        for (std::size_t i = 0; i < counts.size(); ++i) {
+            EXPECT_EQ(picture.find("instants")->values[i], counts[i] > 0.0f ? 1.0f : 0.0f);
+        }
+        if (method == "lightcuts") {
+            EXPECT_TRUE(json.at("pairs_per_pixel").is_null());
+        } else {
+            const double lights = json.at("lights").at("oriented");
+            EXPECT_NEAR(json.at("pairs_per_pixel"), each * lights, 1e-6 * each * lights);
         }
     }
 }

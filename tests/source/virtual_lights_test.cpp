@@ -14,6 +14,7 @@
 #include <lightcuts/light/omni.hpp>
 #include <lightcuts/light/spot.hpp>
 #include <lightcuts/source/virtual_lights.hpp>
+#include "support/random.hpp"
 #include "support/statistics.hpp"
 #include "support/threads.hpp"
 
@@ -110,6 +111,40 @@ struct Sheet : Floor {
 static_assert(TransmissiveParticleScene<Sheet, V> && !TransmissiveParticleScene<Floor, V>);
 
 static_assert(ParticleScene<Ball, V> && ParticleScene<Floor, V> && !ParticleScene<V, V>);
+
+/// A medium without end, and nothing else.
+struct Fog {
+    double extinction = 2.0;
+    MediumScattering<V> scattering{V(0.8f, 0.5f, 0.2f), 0.0f};
+
+    std::optional<Hit> intersect(const V&, const V&) const { return std::nullopt; }
+    V diffuse_albedo(const Hit&) const { return V(0.0f); }
+    ScatteredParticle<V> scatter(const Hit&, const V&, const V&) const { return {}; }
+    double free_flight(const V&, const V&, double u) const { return -std::log1p(-u) / extinction; }
+    MediumScattering<V> scattering_at(const V&) const { return scattering; }
+};
+static_assert(ScatteringParticleScene<Fog, V> && !ScatteringParticleScene<Ball, V>);
+
+/// A ball filled with fog.
+struct FoggyBall : Ball {
+    Fog fog;
+
+    double free_flight(const V& origin, const V& direction, double u) const {
+        return fog.free_flight(origin, direction, u);
+    }
+    MediumScattering<V> scattering_at(const V& p) const { return fog.scattering_at(p); }
+};
+
+double full_power(const ScatteringPointLight<V>& l) {
+    const double narrow = 1.0 - double(l.profile.asymmetry);
+    return 4.0 * pi * narrow * narrow / (1.0 + double(l.profile.asymmetry));
+}
+
+glm::dvec3 flux_of(const std::vector<ScatteringPointLight<V>>& lights) {
+    glm::dvec3 sum(0.0);
+    for (const auto& l : lights) sum += full_power(l) * glm::dvec3(l.intensity);
+    return sum;
+}
 
 glm::dvec3 flux_of(const std::vector<OrientedPointLight<V>>& lights) {
     glm::dvec3 sum(0.0);
@@ -279,6 +314,83 @@ TEST(VirtualLights, AreOneWhereAParticleIsBrighterThanItsLights) {
     }
 }
 
+/// Of a medium of albedo a without end the light scattered is flux x (a + a^2 + ...), whatever its phase function.
+TEST(VirtualLights, CarryTheGeometricSeriesOfAMedium) {
+    const std::vector<OmniLight<>> omni{{V(0.3f, 0.4f, 0.2f), V(1.0f, 2.0f, 3.0f), {}}};
+    for (const float g : {0.0f, 0.7f, -0.4f}) {
+        std::vector<Mean> means(3);
+        Fog fog;
+        fog.scattering.asymmetry = g;
+        for (std::uint64_t seed = 0; seed < 200; ++seed) {
+            const auto made = virtual_lights(fog, ParticleSources(omni), {.lights = 500}, ScrambledSobol{seed});
+            EXPECT_TRUE(made.lights.empty());
+            EXPECT_NEAR(double(made.scattered.size()), 500.0, 200.0);
+            EXPECT_EQ(made.landed, made.particles);
+            const double power = full_power(made.scattered.front()) * channel_sum(made.scattered.front().intensity);
+            for (const auto& l : made.scattered) {
+                EXPECT_NEAR(full_power(l) * channel_sum(l.intensity), power, 1e-4 * power);
+            }
+            for (std::size_t c = 0; c < 3; ++c) means[c].add(flux_of(made.scattered)[int(c)]);
+        }
+        for (std::size_t c = 0; c < 3; ++c) {
+            const double a = double(fog.scattering.albedo[int(c)]);
+            const double truth = 4.0 * pi * double(omni[0].intensity[int(c)]) * a / (1.0 - a);
+            EXPECT_LT(means[c].standard_errors_from(truth), 5.5) << means[c].value() << " against " << truth;
+            EXPECT_NEAR(means[c].value() / truth, 1.0, 0.05);
+        }
+    }
+}
+
+/// A lamp in the middle of a ball: what is not stopped on the way lands.
+TEST(VirtualLights, AreSharedBetweenMediumAndSurfaceByTheTransmittance) {
+    FoggyBall room{{1.5, V(0.5f)}, {}};
+    room.fog.scattering = {V(0.9f), 0.3f};
+    const std::vector<OmniLight<>> omni{{V(0.0f), V(1.0f), {}}};
+    // One flight each; the roulette leaves what is reflected or scattered.
+    const auto made = virtual_lights(room, ParticleSources(omni), {.lights = 40000, .longest_path = 1});
+    const double lands = std::exp(-room.fog.extinction * room.radius);
+    EXPECT_NEAR(flux_of(made.lights).x / (4.0 * pi), 0.5 * lands, 0.002);
+    EXPECT_NEAR(flux_of(made.scattered).x / (4.0 * pi), 0.9 * (1.0 - lands), 0.002);
+    // Their mean distance is that of an exponential law cut off at the radius, and they go straight on.
+    double distance = 0.0;
+    for (const auto& l : made.scattered) {
+        distance += double(glm::length(l.position));
+        EXPECT_NEAR(glm::dot(l.axis, glm::normalize(l.position)), 1.0f, 1e-5f);
+    }
+    const double truth = (1.0 / room.fog.extinction) - room.radius * lands / (1.0 - lands);
+    EXPECT_NEAR(distance / double(made.scattered.size()), truth, 0.002);
+}
+
+/// Once it is scattered twice, the mean cosine between two ways is the medium's.
+TEST(VirtualLights, TurnByTheMeanCosineOfAMedium) {
+    const std::vector<OrientedPointLight<V>> lamp{{V(0.0f), V(0.0f, 0.0f, 1.0f), V(1.0f), {}}};
+    for (const float g : {0.6f, -0.6f}) {
+        const MediumScattering<V> medium{V(1.0f), g};
+        Mean turn;
+        std::vector<ScatteringPointLight<V>> lights;
+        Random random(7);
+        for (int i = 0; i < 100000; ++i) {
+            const V along(random.on_sphere());
+            const auto next = detail::scatter_in_medium<V>(medium, V(1.0f), along, V(0.3f),
+                                                           {random.unit(), random.unit()}, random.unit(), lights);
+            EXPECT_EQ(next.weight, V(1.0f));
+            turn.add(double(glm::dot(next.direction, along)));
+        }
+        EXPECT_LT(turn.standard_errors_from(double(g)), 4.5) << turn.value();
+        EXPECT_NEAR(double(lights.size()), 90000.0, 1500.0);
+    }
+}
+
+/// A room with a medium that stops nothing is the room: same lights, though drawn by other numbers.
+TEST(VirtualLights, OfAMediumThatStopsNothingLieOnSurfaces) {
+    FoggyBall room{{2.0, V(0.5f)}, {}};
+    room.fog.extinction = 0.0;
+    const std::vector<OmniLight<>> omni{{V(0.5f, 0.0f, 0.0f), V(1.0f), {}}};
+    const auto made = virtual_lights(room, ParticleSources(omni), {.lights = 20000});
+    EXPECT_TRUE(made.scattered.empty());
+    EXPECT_NEAR(flux_of(made.lights).x / (4.0 * pi), 1.0, 0.02);
+}
+
 TEST(VirtualLights, DependOnTheSeedButNotOnThreads) {
     const Chamber room{V(0.7f)};
     const std::vector<OmniLight<>> omni{{V(1.0f, 0.5f, 1.0f), V(1.0f), {}}};
@@ -313,7 +425,7 @@ TEST(VirtualLights, RefuseWhatLightsNothing) {
     const auto at = [](float y, const V& intensity) { return Omni{{V(0.5f, y, 0.5f), intensity, {}}}; };
     EXPECT_THAT(refusal(Floor{}, Omni{}), HasSubstr("no light emits"));
     EXPECT_THAT(refusal(Floor{}, at(1.0f, V(0.0f))), HasSubstr("no light emits"));
-    EXPECT_THAT(refusal(Floor{}, at(-1.0f, V(1.0f))), HasSubstr("particles from the lights met a surface"));
+    EXPECT_THAT(refusal(Floor{}, at(-1.0f, V(1.0f))), HasSubstr("particles from the lights met a surface or a medium"));
     EXPECT_THAT(refusal(Floor{V(0.0f)}, at(1.0f, V(1.0f))), HasSubstr("none was reflected or let through"));
     EXPECT_THAT(refusal(Sheet{{V(0.0f)}}, at(1.0f, V(1.0f))), HasSubstr("none was reflected or let through"));
     EXPECT_EQ(refusal(Sheet{{V(0.0f)}, V(0.5f)}, at(1.0f, V(1.0f))), "");

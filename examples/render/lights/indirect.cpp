@@ -43,7 +43,8 @@ private:
 
 /// About `count` lights for all instants together. Those of each instant stand for all indirect light then: a particle
 /// carries as many times its power as there are instants.
-void add_at_instants(Scene& scene, const ParticleScene& surfaces, const OrientedLights& shells, std::size_t count,
+template <class Surroundings>
+void add_at_instants(Scene& scene, const Surroundings& surroundings, const OrientedLights& shells, std::size_t count,
                      std::uint64_t seed) {
     const std::size_t instants = scene.instants.size();
     const ByInstant omni(scene.at_instants.omni, instants);
@@ -53,7 +54,7 @@ void add_at_instants(Scene& scene, const ParticleScene& surfaces, const Oriented
     const ByInstant moving_shells(moving_sphere_shells(scene), instants);
     // Spread evenly, also where there are fewer lights than instants.
     const auto share_of = [&](std::size_t t) { return (t + 1) * count / instants - t * count / instants; };
-    std::vector<OrientedLights> lights(instants);
+    std::vector<lightcuts::VirtualLights<>> made(instants);
     std::vector<std::string> problems(instants);
     tbb::parallel_for(std::size_t{0}, instants, [&](std::size_t t) {
         const lightcuts::ParticleSources sources(
@@ -61,10 +62,9 @@ void add_at_instants(Scene& scene, const ParticleScene& surfaces, const Oriented
             std::span(std::as_const(scene.spots)), std::span(std::as_const(scene.directional)), std::span(shells),
             omni[t], oriented[t], spots[t], directional[t], moving_shells[t]);
         try {
-            lights[t] = lightcuts::virtual_lights(surfaces.at(scene.instants[t]), sources,
-                                                  {.lights = std::max<std::size_t>(share_of(t), 1)},
-                                                  lightcuts::ScrambledSobol{lightcuts::hash_keys(seed, t)})
-                            .lights;
+            made[t] = lightcuts::virtual_lights(surroundings.at(scene.instants[t]), sources,
+                                                {.lights = std::max<std::size_t>(share_of(t), 1)},
+                                                lightcuts::ScrambledSobol{lightcuts::hash_keys(seed, t)});
         } catch (const lightcuts::invalid_input& problem) { problems[t] = problem.what(); }
     });
     // At some instants there may be nothing to light.
@@ -72,25 +72,36 @@ void add_at_instants(Scene& scene, const ParticleScene& surfaces, const Oriented
         throw lightcuts::invalid_input(problems.front());
     }
     for (std::size_t t = 0; t < instants; ++t) {
-        for (const auto& light : lights[t]) {
-            scene.at_instants.virtual_lights.push_back({{{light}}, static_cast<std::uint32_t>(t)});
-        }
+        const auto instant = static_cast<std::uint32_t>(t);
+        for (const auto& light : made[t].lights) scene.at_instants.virtual_lights.push_back({{{light}}, instant});
+        for (const auto& light : made[t].scattered) scene.at_instants.volume_lights.push_back({{{light}}, instant});
     }
+}
+
+template <class Surroundings>
+void add_all(Scene& scene, const Surroundings& surroundings, std::size_t count, std::uint64_t seed) {
+    const OrientedLights shells = sphere_shells(scene);
+    if (scene.light_moves()) return add_at_instants(scene, surroundings, shells, count, seed);
+    const lightcuts::ParticleSources sources(scene.omni, scene.oriented, scene.spots, scene.directional, shells);
+    const auto indirect = lightcuts::virtual_lights(surroundings, sources, {.lights = count},
+                                                    lightcuts::ScrambledSobol{seed}, TbbExecutor{});
+    scene.virtual_lights.reserve(indirect.lights.size());
+    for (const auto& light : indirect.lights) scene.virtual_lights.push_back({light});
+    scene.volume_lights.reserve(indirect.scattered.size());
+    for (const auto& light : indirect.scattered) scene.volume_lights.push_back({light});
 }
 
 }  // namespace
 
 void add_virtual_lights(Scene& scene, const RayScene& rays, std::size_t count, Shade shade, std::uint64_t seed) {
     if (count == 0) return;
-    const OrientedLights shells = sphere_shells(scene);
-    const lightcuts::ParticleSources sources(scene.omni, scene.oriented, scene.spots, scene.directional, shells);
     const ParticleScene surfaces(scene, rays, shade);
     try {
-        if (scene.light_moves()) return add_at_instants(scene, surfaces, shells, count, seed);
-        const auto indirect = lightcuts::virtual_lights(surfaces, sources, {.lights = count},
-                                                        lightcuts::ScrambledSobol{seed}, TbbExecutor{});
-        scene.virtual_lights.reserve(indirect.lights.size());
-        for (const auto& light : indirect.lights) scene.virtual_lights.push_back({light});
+        if (scene.fog.is_there()) {
+            add_all(scene, FoggyParticleScene(surfaces, scene.fog), count, seed);
+        } else {
+            add_all(scene, surfaces, count, seed);
+        }
     } catch (const lightcuts::invalid_input& problem) {
         throw lightcuts::invalid_input(scene.name + ": " + problem.what() + "; give --indirect 0 or add lights");
     }

@@ -1,6 +1,8 @@
 #include "lights/particle_scene.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include <glm/common.hpp>
 
@@ -112,6 +114,13 @@ lightcuts::ScatteredParticle<> ParticleScene::draw(const Hit& met, const glm::ve
     const glm::vec3 value = met.response.opacity * SurfaceMaterial(point_of(met, direction)).evaluate(glm::vec3(way));
     if (value == glm::vec3(0.0f) || !(density > 0.0)) return {};
     return {met.position, glm::vec3(way), value * static_cast<float>(1.0 / density)};
+}
+
+double FoggyParticleScene::free_flight(const glm::vec3& origin, const glm::vec3& direction, double u) const {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const double way = -std::log1p(-u) / static_cast<double>(fog_.medium.extinction());
+    if (!(way < fog_.medium.way_inside(origin, direction, infinity))) return infinity;
+    return fog_.medium.way_before(origin, direction) + way;
 }
 
 }  // namespace render

@@ -6,6 +6,7 @@
 #include <lightcuts/core/box.hpp>
 #include <lightcuts/source/virtual_lights.hpp>
 
+#include "fog.hpp"
 #include "rays/ray_scene.hpp"
 #include "scene.hpp"
 #include "surfaces/surface.hpp"
@@ -57,6 +58,22 @@ private:
     Shade shade_;
     float time_ = 0;
     lightcuts::Box bounds_;
+};
+
+/// The same with its fog: the library's ScatteringParticleScene.
+class FoggyParticleScene : public ParticleScene {
+public:
+    FoggyParticleScene(const ParticleScene& surfaces, const Fog& fog) : ParticleScene(surfaces), fog_(fog) {}
+
+    FoggyParticleScene at(float time) const { return {ParticleScene::at(time), fog_}; }
+
+    double free_flight(const glm::vec3& origin, const glm::vec3& direction, double u) const;
+    lightcuts::MediumScattering<> scattering_at(const glm::vec3&) const {
+        return {glm::vec3(fog_.albedo), fog_.anisotropy};
+    }
+
+private:
+    Fog fog_;
 };
 
 }  // namespace render

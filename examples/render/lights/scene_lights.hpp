@@ -21,7 +21,8 @@ using ForestWith =
 class SceneLights {
 public:
     using DirectForest = ForestWith<>;
-    using Forest = ForestWith<lightcuts::VirtualPointLight<>>;
+    using ClearForest = ForestWith<lightcuts::VirtualPointLight<>>;
+    using Forest = ForestWith<lightcuts::VirtualPointLight<>, lightcuts::VirtualVolumeLight<>>;
     static constexpr std::uint32_t oriented_kind = 1;
     static constexpr std::uint32_t sphere_kind = 4;
     static constexpr std::uint32_t virtual_kind = 5;
@@ -33,11 +34,11 @@ public:
 
     const Forest& forest() const { return forest_; }
 
-    /// Calls `f(forest)` with the same trees but that of virtual lights if the scene has none: that some lights may be
-    /// clamped is what a lightcut pays for even where there are no such lights.
+    /// Calls `f(forest)` with the same trees but those of virtual lights that the scene does not have: that some lights
+    /// may be clamped is what a lightcut pays for even where there are no such lights.
     template <class F>
     decltype(auto) visit(F&& f) const {
-        return virtual_.empty() ? f(direct_) : f(forest_);
+        return !volume_.empty() ? f(forest_) : !virtual_.empty() ? f(clear_) : f(direct_);
     }
 
 protected:
@@ -47,10 +48,12 @@ protected:
     lightcuts::LightTree<lightcuts::DistantLight<>> directional_;
     lightcuts::LightTree<lightcuts::SpherePointLight<>> spheres_;
     lightcuts::LightTree<lightcuts::VirtualPointLight<>> virtual_;
+    lightcuts::LightTree<lightcuts::VirtualVolumeLight<>> volume_;
 
 private:
     DirectForest direct_{omni_, oriented_, spots_, directional_, spheres_};
-    Forest forest_{omni_, oriented_, spots_, directional_, spheres_, virtual_};
+    ClearForest clear_{omni_, oriented_, spots_, directional_, spheres_, virtual_};
+    Forest forest_{omni_, oriented_, spots_, directional_, spheres_, virtual_, volume_};
 };
 
 /// The light trees of a scene in which lights move: those of `SceneLights`, and one for each kind of light that exists
@@ -61,12 +64,13 @@ public:
     using At = lightcuts::InstantLight<L>;
     using Forest = lightcuts::TimedForest<
         lightcuts::OmniLight<>, lightcuts::OrientedPointLight<>, lightcuts::SpotLight<>, lightcuts::DistantLight<>,
-        lightcuts::SpherePointLight<>, lightcuts::VirtualPointLight<>, At<lightcuts::OmniLight<>>,
-        At<lightcuts::OrientedPointLight<>>, At<lightcuts::SpotLight<>>, At<lightcuts::DistantLight<>>,
-        At<lightcuts::SpherePointLight<>>, At<lightcuts::VirtualPointLight<>>>;
-    static constexpr std::uint32_t oriented_kind = 7;
-    static constexpr std::uint32_t sphere_kind = 10;
-    static constexpr std::uint32_t virtual_kind = 11;
+        lightcuts::SpherePointLight<>, lightcuts::VirtualPointLight<>, lightcuts::VirtualVolumeLight<>,
+        At<lightcuts::OmniLight<>>, At<lightcuts::OrientedPointLight<>>, At<lightcuts::SpotLight<>>,
+        At<lightcuts::DistantLight<>>, At<lightcuts::SpherePointLight<>>, At<lightcuts::VirtualPointLight<>>,
+        At<lightcuts::VirtualVolumeLight<>>>;
+    static constexpr std::uint32_t oriented_kind = 8;
+    static constexpr std::uint32_t sphere_kind = 11;
+    static constexpr std::uint32_t virtual_kind = 12;
 
     /// `scene` must outlive this object. throws: lightcuts::invalid_input for a light that cannot be used.
     InstantSceneLights(const Scene& scene, const Options& options);
@@ -80,6 +84,7 @@ private:
     lightcuts::LightTree<At<lightcuts::DistantLight<>>> directional_at_;
     lightcuts::LightTree<At<lightcuts::SpherePointLight<>>> spheres_at_;
     lightcuts::LightTree<At<lightcuts::VirtualPointLight<>>> virtual_at_;
+    lightcuts::LightTree<At<lightcuts::VirtualVolumeLight<>>> volume_at_;
     Forest forest_;
 };
 

@@ -2,6 +2,7 @@
 
 #include "light.hpp"
 #include "oriented.hpp"
+#include "scattering.hpp"
 
 namespace lightcuts {
 
@@ -23,5 +24,9 @@ struct Clampable : L {
 /// A virtual point light: light reflected by a small piece of a diffuse surface.
 template <Spectrum S = glm::vec3>
 using VirtualPointLight = Clampable<OrientedPointLight<S>>;
+
+/// A virtual light in a medium: light scattered at a point of it.
+template <Spectrum S = glm::vec3>
+using VirtualVolumeLight = Clampable<ScatteringPointLight<S>>;
 
 }  // namespace lightcuts

@@ -7,6 +7,7 @@
 
 #include "../core/assertion.hpp"
 #include "../core/cone.hpp"
+#include "../core/henyey_greenstein.hpp"
 #include "../core/vector.hpp"
 #include "conservative_rounding.hpp"
 #include "glossy_envelope.hpp"
@@ -35,7 +36,7 @@ public:
     S evaluate(const glm::vec3& to_light) const {
         // 1 - cos of the angle to the axis, free of cancellation.
         const glm::dvec3 away = glm::normalize(glm::dvec3(to_light)) - axis_;
-        return albedo_ * static_cast<float>(value(asymmetry_, 0.5 * detail::dot(away, away)));
+        return albedo_ * static_cast<float>(henyey_greenstein(asymmetry_, 0.5 * detail::dot(away, away)));
     }
 
     /// cost: about 60 ns
@@ -49,12 +50,6 @@ public:
 
 private:
     friend class HenyeyGreensteinEnvelope<S>;
-
-    /// For 1 - cos of the angle to the axis.
-    static double value(double g, double away) {
-        const double root2 = (1.0 - g) * (1.0 - g) + 2.0 * g * away;
-        return 0.079577471545947668 * (1.0 - g) * (1.0 + g) / (root2 * std::sqrt(root2));
-    }
 
     glm::dvec3 axis_;  ///< where most is scattered to the viewer from
     double asymmetry_;
@@ -94,7 +89,7 @@ private:
     /// At least the value of each g of the range at a given 1 - cos: the largest numerator, and the least denominator,
     /// which is that of g = cos.
     double largest_value(double away) const {
-        if (least_ == largest_) return HenyeyGreenstein<S>::value(least_, away);
+        if (least_ == largest_) return henyey_greenstein(least_, away);
         const double best = 1.0 - away;
         const double g = best < least_ ? least_ : best > largest_ ? largest_ : best;
         const double root2 = (1.0 - g) * (1.0 - g) + 2.0 * g * away;

@@ -5,6 +5,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <type_traits>
@@ -14,9 +15,12 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include "../core/basis.hpp"
 #include "../core/executor.hpp"
+#include "../core/henyey_greenstein.hpp"
 #include "../core/invalid_input.hpp"
 #include "../light/oriented.hpp"
+#include "../light/scattering.hpp"
 #include "particle_sources.hpp"
 #include "sampler.hpp"
 
@@ -56,7 +60,32 @@ concept TransmissiveParticleScene = ParticleScene<Sc, S> && requires(const Sc& s
     { scene.diffuse_transmittance(*scene.intersect(v, v)) } -> std::convertible_to<S>;
 };
 
+/// What a medium does with the light that it stops.
+template <Spectrum S = glm::vec3>
+struct MediumScattering {
+    S albedo = black<S>();   ///< share that it scatters rather than absorbs, in [0, 1]
+    float asymmetry = 0.0f;  ///< mean cosine of Henyey and Greenstein's phase function, above -1 and below 1
+};
+
+/// A scene filled with a medium that scatters or absorbs.
+/// - `free_flight(origin, direction, u)`: how far a particle gets before the medium stops it, were there no surface;
+///   infinite if it leaves the medium. Drawn in proportion to what is stopped: u is uniform in [0, 1).
+/// - `scattering_at(position)`: a MediumScattering
+template <class Sc, class S>
+concept ScatteringParticleScene = ParticleScene<Sc, S> && requires(const Sc& scene, glm::vec3 v, double u) {
+    { scene.free_flight(v, v, u) } -> std::convertible_to<double>;
+    { scene.scattering_at(v) } -> std::convertible_to<MediumScattering<S>>;
+};
+
 namespace detail {
+template <class Sc>
+concept HasFreeFlight = requires(const Sc& scene, glm::vec3 v, double u) {
+    scene.free_flight(v, v, u);
+};
+template <class Sc>
+concept HasScattering = requires(const Sc& scene, glm::vec3 v) {
+    scene.scattering_at(v);
+};
 template <class Sc>
 concept HitsHavePositionBehind = requires(const Sc& scene, glm::vec3 v) {
     (*scene.intersect(v, v)).position_behind;
@@ -69,15 +98,16 @@ concept HasDiffuseTransmittance = requires(const Sc& scene, glm::vec3 v) {
 
 struct ParticleOptions {
     std::size_t lights = 10000;         ///< wanted, over all bounces; about as many are made
-    std::uint32_t longest_path = 1000;  ///< surfaces met; what lies beyond is lost
+    std::uint32_t longest_path = 1000;  ///< times that it meets a surface or is scattered; what lies beyond is lost
 };
 
 /// Indirect light as point lights.
 template <Spectrum S = glm::vec3>
 struct VirtualLights {
     std::vector<OrientedPointLight<S>> lights;
-    std::uint64_t particles = 0;  ///< that left a light
-    std::uint64_t landed = 0;     ///< of these, how many met a surface
+    std::vector<ScatteringPointLight<S>> scattered;  ///< in the medium of a ScatteringParticleScene
+    std::uint64_t particles = 0;                     ///< that left a light
+    std::uint64_t landed = 0;                        ///< of these, how many met a surface or were stopped by a medium
 };
 
 namespace detail {
@@ -86,7 +116,15 @@ namespace detail {
 template <Spectrum S>
 struct ParticleTally {
     std::vector<OrientedPointLight<S>> lights;
+    std::vector<ScatteringPointLight<S>> scattered;
     std::uint64_t landed = 0;
+
+    std::size_t left() const { return lights.size() + scattered.size(); }
+    void append(const ParticleTally& other) {
+        lights.insert(lights.end(), other.lights.begin(), other.lights.end());
+        scattered.insert(scattered.end(), other.scattered.begin(), other.scattered.end());
+        landed += other.landed;
+    }
 };
 
 /// Leaves what `power` makes at `hit` to a light, with a probability in proportion: on the side that was hit, or behind
@@ -114,11 +152,31 @@ void leave_light(const Scene& scene, const Hit& hit, const S& power, double roul
     }
 }
 
+/// Leaves what `power` makes where a medium stops a particle that travels along `direction` to a light, with a
+/// probability in proportion, and sends the particle on. `u`: two numbers in [0, 1)
+template <Spectrum S>
+ScatteredParticle<S> scatter_in_medium(const MediumScattering<S>& medium, const glm::vec3& position,
+                                       const glm::vec3& direction, const S& power, const glm::dvec2& u, double roulette,
+                                       std::vector<ScatteringPointLight<S>>& lights) {
+    const S scattered = power * medium.albedo;
+    const double sum = channel_sum(scattered), whole = (std::max)(sum, 1.0);
+    if (roulette * whole < sum) {
+        lights.push_back(scattering_point_light(position, direction, S(scattered * static_cast<float>(whole / sum)),
+                                                medium.asymmetry));
+    }
+    const double cosine = henyey_greenstein_cosine(static_cast<double>(medium.asymmetry), u.x);
+    const Basis forward(glm::normalize(glm::dvec3(direction)));
+    return {position, glm::vec3(forward.out(around_z(cosine, u.y))), medium.albedo};
+}
+
 /// Follows particle `index` and appends its lights.
 template <class Scene, class Emission, Sampler Sequence>
 void follow(const Scene& scene, const Emission& emission, const Sequence& sampler, std::uint32_t index,
             std::uint32_t longest_path, ParticleTally<typename Emission::S>& tally) {
     using S = typename Emission::S;
+    constexpr bool scatters = ScatteringParticleScene<Scene, S>;
+    // For each way, two more decide how far it goes through a medium. Samplers use dimensions in pairs.
+    constexpr std::uint32_t numbers = scatters ? 6 : 4;
     // Together, as samplers may share work among consecutive dimensions.
     const auto four_numbers = [&](std::uint32_t dimension) {
         std::array<double, 4> u;
@@ -129,32 +187,46 @@ void follow(const Scene& scene, const Emission& emission, const Sequence& sample
     emission.emit_ray(start[0], {start[2], start[3]}, start[1], [&](const auto& light, const auto& emitted) {
         using L = std::remove_cvref_t<decltype(light)>;
         S power = emitted.power;
-        glm::vec3 direction(emitted.ray.direction);
-        auto hit = scene.intersect(glm::vec3(emitted.ray.origin), direction);
-        if (!hit) return;
-        ++tally.landed;
-        if constexpr (FalloffLight<L>) {
-            const float distance = glm::distance(glm::vec3(emitted.ray.origin), to_vec3((*hit).position));
-            power = power * (falloff_of(light, distance) * distance * distance);
-        }
+        glm::vec3 origin(emitted.ray.origin), direction(emitted.ray.direction);
         for (std::uint32_t bounce = 0; bounce < longest_path; ++bounce) {
-            const std::array<double, 4> drawn = four_numbers(4 + 4 * bounce);
+            const auto hit = scene.intersect(origin, direction);
+            bool is_stopped = false;
+            float way = hit ? glm::distance(origin, to_vec3((*hit).position)) : 0.0f;
+            if constexpr (scatters) {
+                const double u = static_cast<double>(sampler(index, numbers * bounce + 4));
+                const auto flight = static_cast<double>(scene.free_flight(origin, direction, u));
+                is_stopped = hit ? flight < static_cast<double>(way) : flight < std::numeric_limits<double>::infinity();
+                if (is_stopped) way = static_cast<float>(flight);
+            }
+            if (!hit && !is_stopped) return;
+            if (bounce == 0) {
+                ++tally.landed;
+                if constexpr (FalloffLight<L>) power = power * (falloff_of(light, way) * way * way);
+            }
+            const std::array<double, 4> drawn = four_numbers(numbers * (bounce + 1));
             // One number decides whether a light is left, on either side, and whether the particle goes on: each
             // decision has its right probability, and fewer particles end without having left a light.
             const double roulette = drawn[3];
-            leave_light(scene, *hit, power, roulette, tally.lights);
-            const auto below_one = [&](std::size_t d) {
-                return (std::min)(static_cast<float>(drawn[d]), 1.0f - 0x1p-24f);
-            };
-            const glm::vec3 u(below_one(0), below_one(1), below_one(2));
-            const ScatteredParticle<S> scattered = scene.scatter(*hit, direction, u);
-            power = power * scattered.weight;
+            ScatteredParticle<S> next;
+            if (is_stopped) {
+                if constexpr (scatters) {
+                    const glm::vec3 position = origin + way * direction;
+                    next = scatter_in_medium<S>(scene.scattering_at(position), position, direction, power,
+                                                {drawn[0], drawn[1]}, roulette, tally.scattered);
+                }
+            } else {
+                leave_light(scene, *hit, power, roulette, tally.lights);
+                const auto below_one = [&](std::size_t d) {
+                    return (std::min)(static_cast<float>(drawn[d]), 1.0f - 0x1p-24f);
+                };
+                next = scene.scatter(*hit, direction, glm::vec3(below_one(0), below_one(1), below_one(2)));
+            }
+            power = power * next.weight;
             const double survival = channel_sum(power);
             if (!(roulette < survival)) return;
             if (survival < 1.0) power = power * static_cast<float>(1.0 / survival);
-            direction = scattered.direction;
-            hit = scene.intersect(scattered.origin, direction);
-            if (!hit) return;
+            origin = next.origin;
+            direction = next.direction;
         }
     });
 }
@@ -175,13 +247,7 @@ ParticleTally<typename Emission::S> follow_all(const Scene& scene, const Emissio
         }
     });
     Tally all;
-    std::size_t lights = 0;
-    for (const Tally& tally : tallies) lights += tally.lights.size();
-    all.lights.reserve(lights);
-    for (const Tally& tally : tallies) {
-        all.lights.insert(all.lights.end(), tally.lights.begin(), tally.lights.end());
-        all.landed += tally.landed;
-    }
+    for (const Tally& tally : tallies) all.append(tally);
     return all;
 }
 
@@ -189,16 +255,17 @@ ParticleTally<typename Emission::S> follow_all(const Scene& scene, const Emissio
 
 /// Indirect light by instant radiosity [Keller 1997; Lightcuts 2005, section 5]: particles leave the lights in
 /// proportion to their power and scatter through the scene; wherever one meets a surface with a diffuse part, a virtual
-/// oriented light takes over what that part reflects, or one behind it what a leaf lets through. Russian roulette keeps
-/// every particle, and so every light, at the same power (sum of channels; brighter only where `scatter` returns
-/// weights above 1, or a falloff is not 1/d^2). On average over seeds the lights carry all diffusely reflected light
-/// after any number of bounces, caustics included.
+/// oriented light takes over what that part reflects, or one behind it what a leaf lets through; wherever a medium
+/// stops one, a scattering light takes over what that scatters [Multidimensional Lightcuts 2006, section 3.4]. Russian
+/// roulette keeps every particle, and so every light, at the same power (sum of channels; brighter only where `scatter`
+/// returns weights above 1, or a falloff is not 1/d^2). On average over seeds the lights carry all light that surfaces
+/// reflect diffusely and media scatter after any number of bounces, caustics included.
 ///
 /// Light profiles are resolved in 512 steps of the angle. A first, smaller set of particles finds how many lights a
 /// particle leaves; `options.lights` then is met within a few per cent.
 /// throws: invalid_input if no light emits, if one is negative or not finite, if all particles miss the scene, or none
-/// is reflected or let through diffusely. cost: about one intersection a light, and as many for particles that end.
-/// threads: the result does not depend on them.
+/// is reflected or let through diffusely or scattered. cost: about one intersection a light, and as many for particles
+/// that end. threads: the result does not depend on them.
 template <class Scene, Light... Ls, Sampler Sequence = ScrambledSobol, Executor E = Sequential>
     requires ParticleScene<Scene, typename ParticleSources<Ls...>::spectrum>
 auto virtual_lights(const Scene& scene, const ParticleSources<Ls...>& sources, const ParticleOptions& options = {},
@@ -209,6 +276,10 @@ auto virtual_lights(const Scene& scene, const ParticleSources<Ls...>& sources, c
             !(detail::HitsHavePositionBehind<Scene> || detail::HasDiffuseTransmittance<Scene>),
         "a scene with leaves needs both: diffuse_transmittance(hit) const, which returns the lights' Spectrum, "
         "and hits with a position_behind");
+    static_assert(ScatteringParticleScene<Scene, S> || !(detail::HasFreeFlight<Scene> || detail::HasScattering<Scene>),
+                  "a scene with a medium needs both: free_flight(origin, direction, u) const, which returns a "
+                  "distance, and scattering_at(position) const, which returns a MediumScattering of the lights' "
+                  "Spectrum");
     VirtualLights<S> result;
     Box bounds;
     if constexpr (ParticleSources<Ls...>::has_directional) {
@@ -231,16 +302,16 @@ auto virtual_lights(const Scene& scene, const ParticleSources<Ls...>& sources, c
                                               count, options.longest_path, execute);
         followed += count;
         landed += tally.landed;
-        left += tally.lights.size();
+        left += tally.left();
     }
     if (landed == 0) {
         LIGHTCUTS_THROW(invalid_input("virtual lights: none of " + std::to_string(followed) +
-                                      " particles from the lights met a surface"));
+                                      " particles from the lights met a surface or a medium"));
     }
     if (left == 0) {
-        LIGHTCUTS_THROW(invalid_input("virtual lights: of " + std::to_string(followed) + " particles " +
-                                      std::to_string(landed) +
-                                      " met a surface, but none was reflected or let through diffusely"));
+        LIGHTCUTS_THROW(
+            invalid_input("virtual lights: of " + std::to_string(followed) + " particles " + std::to_string(landed) +
+                          " met a surface or a medium, but none was reflected or let through diffusely or scattered"));
     }
     const double wanted = static_cast<double>(options.lights) * static_cast<double>(followed) /
                           static_cast<double>(left);
@@ -248,11 +319,16 @@ auto virtual_lights(const Scene& scene, const ParticleSources<Ls...>& sources, c
 
     auto tally = detail::follow_all(scene, emission, sampler, 0, particles, options.longest_path, execute);
     const double share = emission.power() / static_cast<double>(particles);
-    for (auto& light : tally.lights) {
-        light.intensity = make_spectrum<S>(
-            [&](int c) { return static_cast<double>(channel(light.intensity, c)) * share; });
-    }
+    const auto scale = [share](auto& lights) {
+        for (auto& light : lights) {
+            light.intensity = make_spectrum<S>(
+                [&](int c) { return static_cast<double>(channel(light.intensity, c)) * share; });
+        }
+    };
+    scale(tally.lights);
+    scale(tally.scattered);
     result.lights = std::move(tally.lights);
+    result.scattered = std::move(tally.scattered);
     result.particles = particles;
     result.landed = tally.landed;
     return result;
