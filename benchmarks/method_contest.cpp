@@ -11,7 +11,7 @@ MethodContest::MethodContest(const Workload& work, std::size_t count)
 
 std::size_t MethodContest::add_method(const render::Options& options) {
     methods_.emplace_back(work_.scene(), work_.rays(), points_, options);
-    clamps_.push_back(!work_.scene().virtual_lights.empty() && options.clamping().has_threshold());
+    clamps_.push_back(work_.scene().virtual_count() > 0 && options.clamping().has_threshold());
     return methods_.size() - 1;
 }
 

@@ -35,7 +35,11 @@ std::vector<Effort> efforts(const Curve& curve, double render::ErrorFigures::*fi
     return result;
 }
 
-bool is_lightcuts(const Curve& curve) { return std::string_view(curve.method->method) == "lightcuts"; }
+/// The methods of this library that bound their errors.
+bool is_lightcuts(const Curve& curve) {
+    const std::string_view method = curve.method->method;
+    return method == "lightcuts" || method == "multidimensional";
+}
 
 EqualTime::Figure figure_at(const SceneMeasurement& scene, const Curve& lightcuts, double seconds,
                             double render::ErrorFigures::*figure) {

@@ -8,6 +8,7 @@
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include "moving_view.hpp"
 #include "prepare_scene.hpp"
 #include "rays/ray_scene.hpp"
 #include "render_loop.hpp"
@@ -38,6 +39,16 @@ public:
         nanoseconds_ += static_cast<std::int64_t>(1e9 * (processor_seconds() - start));
     }
 
+    bool shades_pixels() const override { return method_.shades_pixels(); }
+
+    render::Shading shade_pixel(std::span<const render::SurfacePoint> points, float share,
+                                Scratch& scratch) const override {
+        const double start = processor_seconds();
+        const render::Shading shading = method_.shade_pixel(points, share, scratch);
+        nanoseconds_ += static_cast<std::int64_t>(1e9 * (processor_seconds() - start));
+        return shading;
+    }
+
     double seconds() const { return 1e-9 * static_cast<double>(nanoseconds_.load()); }
 
 private:
@@ -65,7 +76,7 @@ class SceneRenderer {
 public:
     SceneRenderer(const ReportScene& scene, const MeasurementOptions& options)
         : scene_(*scene.scene), runs_(options.runs), rays_(scene_),
-          view_(scene.camera, scene_.origin, scene.width, scene.height),
+          view_(scene.camera, scene_, scene.width, scene.height, render::lens_of(scene.options, scene.camera)),
           surfaces_(scene_, rays_, render::shade_of(scene.options)), usual_(scene.options) {
         emitted_ = render::render_picture(view_, surfaces_, BlackShader(), usual_).picture;
         for (render::Material& material : scene_.materials) material.emission = glm::vec3(0.0f);
@@ -82,6 +93,7 @@ public:
         Measurement result;
         const double start = process_seconds();
         const auto shader = render::make_shader(scene_, rays_, options);
+        if (options.adaptation) shader->adapt(*options.adaptation);
         result.prepare_seconds = process_seconds() - start;
         std::vector<double> times;
         do {
@@ -90,7 +102,7 @@ public:
             times.push_back(timed.seconds());
             const render::RenderStatistics& s = rendering.statistics;
             result.rays_per_pixel = static_cast<double>(s.shadow_rays) / static_cast<double>(s.pixels);
-            if (s.points > 0) result.cut_size = static_cast<double>(s.cut_nodes) / static_cast<double>(s.points);
+            if (s.cuts > 0) result.cut_size = static_cast<double>(s.cut_nodes) / static_cast<double>(s.cuts);
             result.picture = std::move(rendering.picture);
         } while (static_cast<int>(times.size()) < runs_ && times.back() < long_run);
         result.runs = static_cast<int>(times.size());
@@ -102,7 +114,7 @@ private:
     render::Scene scene_;  ///< emitters and background are black once `emitted_` is rendered
     int runs_;
     render::RayScene rays_;
-    render::View view_;
+    render::MovingView view_;
     render::EyePathTracer surfaces_;
     render::Options usual_;
     render::Picture emitted_;
@@ -110,7 +122,7 @@ private:
 
 /// True if clamping makes another picture of the scene.
 bool has_two_references(const ReportScene& scene) {
-    return !scene.scene->virtual_lights.empty() && scene.options.clamp.has_threshold();
+    return scene.scene->virtual_count() > 0 && scene.options.clamp.has_threshold();
 }
 
 std::vector<double> values_of(const ReportMethod& method, const MeasurementOptions& options) {
@@ -130,7 +142,7 @@ const Measurement& SceneMeasurement::reference_of(const ReportMethod& method) co
 
 std::size_t setting_count(const ReportScene& scene, const MeasurementOptions& options) {
     std::size_t count = has_two_references(scene) ? 2 : 1;
-    for (const ReportMethod& method : report_methods()) count += values_of(method, options).size();
+    for (const ReportMethod* method : report_methods(scene.options)) count += values_of(*method, options).size();
     return count;
 }
 
@@ -153,17 +165,17 @@ SceneMeasurement measure(const ReportScene& scene, const MeasurementOptions& opt
             exhaustive.clamp = {};
             result.unclamped = renderer.run(exhaustive);
         }
-        for (const ReportMethod& method : report_methods()) {
+        for (const ReportMethod* method : report_methods(scene.options)) {
             Curve& curve = result.curves.emplace_back();
-            curve.method = &method;
-            for (const double value : values_of(method, options)) {
-                start(std::string(method.name) + ", " + method.parameter + " " + as_text(value));
+            curve.method = method;
+            for (const double value : values_of(*method, options)) {
+                start(std::string(method->name) + ", " + method->parameter + " " + as_text(value));
                 render::Options chosen = renderer.usual();
-                chosen.method = method.method;
-                method.set(chosen, value);
+                chosen.method = method->method;
+                method->set(chosen, value);
                 Measurement& point = curve.points.emplace_back(renderer.run(chosen));
                 point.value = value;
-                point.error = render::compare(point.picture, result.reference_of(method).picture);
+                point.error = render::compare(point.picture, result.reference_of(*method).picture);
             }
         }
     });

@@ -20,7 +20,7 @@ struct Measurement {
     double prepare_seconds = 0;  ///< processor seconds before the first point is shaded: building trees
     int runs = 0;
     double rays_per_pixel = 0;  ///< shadow rays
-    double cut_size = 0;        ///< clusters or lights a point, mean
+    double cut_size = 0;        ///< clusters, pairs or lights of a cut, mean
     render::ErrorFigures error;
     render::Picture picture;  ///< reflected light alone, with the layer `cut_size`
 };

@@ -23,9 +23,11 @@ void error_ratio_of_large_cuts(Options& options, double value) {
     options.max_cut = 4000;
 }
 
+void error_ratio_of_pixels(Options& options, double value) { options.error_ratio = static_cast<float>(value); }
+
 }  // namespace
 
-std::span<const ReportMethod> report_methods() {
+std::vector<const ReportMethod*> report_methods(const render::Options& scene) {
     static const std::vector<double> ratios = {0.32, 0.16, 0.08, 0.04, 0.02, 0.01, 0.005};
     static const std::vector<double> counts = {4, 16, 64, 256, 1024};
     // A method joins by a line.
@@ -38,8 +40,14 @@ std::span<const ReportMethod> report_methods() {
         {"lightcuts", "lightcuts", "error ratio", error_ratio<1>, ratios},
         {"lightcuts, 8 representatives", "lightcuts", "error ratio", error_ratio<8>, ratios},
         {"lightcuts of up to 4000", "lightcuts", "error ratio", error_ratio_of_large_cuts, ratios},
+        {"unified cut", "unified-cut", "error ratio", error_ratio_of_pixels, ratios, true},
+        {"multidimensional lightcuts", "multidimensional", "error ratio", error_ratio_of_pixels, ratios, true},
     };
-    return methods;
+    std::vector<const ReportMethod*> compared;
+    for (const ReportMethod& method : methods) {
+        if (!method.sums_pixels || scene.spp > 1 || scene.fog > 0.0f) compared.push_back(&method);
+    }
+    return compared;
 }
 
 }  // namespace benchmark

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "options.hpp"
@@ -14,9 +13,10 @@ struct ReportMethod {
     const char* parameter;  ///< what is varied
     void (*set)(render::Options&, double value);
     std::vector<double> values;  ///< from fast to slow
+    bool sums_pixels = false;    ///< differs from others only where a pixel has several gather points
 };
 
-/// All methods that are compared, besides the exhaustive sum, which is the reference.
-std::span<const ReportMethod> report_methods();
+/// All methods that are compared for a scene of these options, besides the exhaustive sum, which is the reference.
+std::vector<const ReportMethod*> report_methods(const render::Options& scene);
 
 }  // namespace benchmark

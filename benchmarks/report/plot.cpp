@@ -74,7 +74,8 @@ std::string axes(const Plot& plot, const Axis& x, const Axis& y) {
     }
     for (const double tick : y.ticks()) {
         svg += line(left, y.pixel(tick), right, y.pixel(tick), "stroke=\"#dddddd\"");
-        svg += text_at(left - 6, y.pixel(tick) + 4, "text-anchor=\"end\"", formatted("%g %%", 100.0 * tick));
+        svg += text_at(left - 6, y.pixel(tick) + 4, "text-anchor=\"end\"",
+                       plot.y_is_share ? formatted("%g %%", 100.0 * tick) : formatted("%g", tick));
     }
     svg += formatted("<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"none\" stroke=\"#444444\"/>\n",
                      left, top, right - left, bottom - top);

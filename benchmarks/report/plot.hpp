@@ -23,14 +23,15 @@ struct PlotMark {
     std::string name;
 };
 
-/// Curves over two logarithmic axes; y are shares, written as percentages.
+/// Curves over two logarithmic axes.
 struct Plot {
     std::string title;
     std::string x_title;
     std::string y_title;
     std::vector<PlotCurve> curves;
     std::optional<PlotMark> mark;
-    double least_y = 0;  ///< what is below is drawn here
+    double least_y = 0;      ///< what is below is drawn here
+    bool y_is_share = true;  ///< written as a percentage
 };
 
 /// The plot as an `svg` element that stands alone. Points whose x is not positive or that are not finite are left
