@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
-#include <cstdint>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
-#include <lightcuts/source/environment.hpp>
+
+#include "scenes/computed_map.hpp"
 
 namespace render {
 namespace {
@@ -76,19 +75,6 @@ glm::vec3 radiance(const glm::vec3& direction) {
 
 }  // namespace
 
-Picture studio_map() {
-    Picture map(2 * height, height);
-    const lightcuts::EnvironmentMap places(2 * height, height, [](std::uint32_t, std::uint32_t) { return 1.0f; });
-    // Four points a pixel, so that the lamp's rim and the bars are not ragged.
-    constexpr std::array offsets{glm::dvec2(0.25, 0.25), glm::dvec2(0.75, 0.25), glm::dvec2(0.25, 0.75),
-                                 glm::dvec2(0.75, 0.75)};
-    for (std::size_t i = 0; i < map.size(); ++i) {
-        const glm::dvec2 corner(i % (2 * height), i / (2 * height));
-        for (const glm::dvec2& offset : offsets) {
-            map.pixels[i] += 0.25f * radiance(glm::vec3(places.direction_at(corner + offset)));
-        }
-    }
-    return map;
-}
+Picture studio_map() { return computed_map(height, radiance); }
 
 }  // namespace render
