@@ -98,14 +98,20 @@ glm::dvec3 position_at(const Scene& scene, std::uint32_t vertex, float time) {
     return part ? value_at<glm::dvec3>(*part, part->positions, vertex, time) : glm::dvec3(scene.positions[vertex]);
 }
 
+/// Where `motion` has at `second` what is at `original` at second 0.
+glm::vec3 moved(const RigidMotion& motion, const glm::dmat3& turn, const glm::vec3& original, double second) {
+    return glm::vec3(motion.center + turn * (glm::dvec3(original) - motion.center) + motion.velocity * second);
+}
+
+glm::dmat3 turn_at(const RigidMotion& motion, double second) {
+    return glm::dmat3(glm::rotate(glm::dmat4(1.0), motion.turn * second, motion.axis));
+}
+
 /// Of the vertices of `motion`, whose place at second 0 is `original`, at `second`.
 VertexFrame frame_of(const RigidMotion& motion, const VertexFrame& original, double second) {
-    const glm::dmat3 turn(glm::rotate(glm::dmat4(1.0), motion.turn * second, motion.axis));
-    const glm::dvec3 shift = motion.velocity * second;
+    const glm::dmat3 turn = turn_at(motion, second);
     VertexFrame frame = original;
-    for (glm::vec3& p : frame.positions) {
-        p = glm::vec3(motion.center + turn * (glm::dvec3(p) - motion.center) + shift);
-    }
+    for (glm::vec3& p : frame.positions) p = moved(motion, turn, p, second);
     for (glm::vec3& n : frame.normals) n = glm::vec3(turn * glm::dvec3(n));
     for (glm::vec4& t : frame.tangents) t = glm::vec4(glm::vec3(turn * glm::dvec3(t)), t.w);
     return frame;
@@ -121,6 +127,34 @@ std::vector<V> part_of(const std::vector<V>& all, const RigidMotion& motion) {
 template <class V>
 void put_back(std::vector<V>& all, const std::vector<V>& part, const RigidMotion& motion) {
     std::copy(part.begin(), part.end(), all.begin() + static_cast<std::ptrdiff_t>(motion.first_vertex));
+}
+
+/// Puts the spherical lights of all parts where they are as the shutter opens; those that move while it is open become
+/// one for each instant.
+void move_spheres(Scene& scene, const Shutter& shutter) {
+    const std::vector<float> times = shutter.is_moment() ? std::vector<float>{} : times_of_instants(shutter);
+    std::vector<lightcuts::SphereLight<>> still = scene.spheres;
+    std::vector<bool> moves(scene.spheres.size(), false);
+    for (const RigidMotion& motion : scene.rigid_motions) {
+        for (std::uint32_t i = motion.first_sphere; i < motion.first_sphere + motion.sphere_count; ++i) {
+            const lightcuts::SphereLight<> original = scene.spheres[i];
+            const auto center_at = [&](double second) {
+                return moved(motion, turn_at(motion, second), original.center, second);
+            };
+            if (shutter.opens != 0.0) still[i].center = center_at(shutter.opens);
+            moves[i] = motion.turn != 0.0 || motion.velocity != glm::dvec3(0.0);
+            if (!moves[i]) continue;
+            for (std::uint32_t t = 0; t < times.size(); ++t) {
+                lightcuts::SphereLight<> there = original;
+                there.center = center_at(shutter.second_at(static_cast<double>(times[t])));
+                scene.at_instants.spheres.push_back({there, t});
+            }
+        }
+    }
+    scene.spheres.clear();
+    for (std::size_t i = 0; i < still.size(); ++i) {
+        if (shutter.is_moment() || !moves[i]) scene.spheres.push_back(still[i]);
+    }
 }
 
 }  // namespace
@@ -171,6 +205,7 @@ void apply_rigid_motions(Scene& scene, const Shutter& shutter) {
             return time == 0.0 ? opening : frame_of(motion, original, shutter.second_at(time));
         });
     }
+    move_spheres(scene, shutter);
     scene.rigid_motions.clear();
 }
 

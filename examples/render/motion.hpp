@@ -32,7 +32,8 @@ using VertexPath = std::function<VertexFrame(double time)>;
 void add_motion(Scene& scene, std::uint32_t first, std::uint32_t count, std::uint32_t least_steps,
                 const VertexPath& path);
 
-/// Puts the parts that `scene.rigid_motions` names where they are as the shutter opens, and in motion while it is open.
+/// Puts the parts that `scene.rigid_motions` names where they are as the shutter opens, and in motion while it is open;
+/// their spherical lights are then one for each instant.
 void apply_rigid_motions(Scene& scene, const Shutter& shutter);
 
 /// Gives the scene its instants if anything of it moves.

@@ -30,6 +30,8 @@ struct RigidMotion {
     glm::dvec3 axis{0.0, 1.0, 0.0};  ///< unit
     double turn = 0.0;               ///< radians a second, counter-clockwise seen from where the axis points to
     glm::dvec3 velocity{0.0};        ///< a second
+    std::uint32_t first_sphere = 0;  ///< of the spherical lights that move with it, each with no other part
+    std::uint32_t sphere_count = 0;
 };
 
 }  // namespace render

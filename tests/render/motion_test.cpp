@@ -188,6 +188,36 @@ TEST(Motion, OfAStraightLineTakesOneStep) {
     EXPECT_EQ(render::triangle_at(s, 2, 0.5f).a, glm::dvec3(s.positions[first]) + glm::dvec3(3, 0, 1));
 }
 
+TEST(Motion, TakesSphericalLightsAlong) {
+    const Shutter shutter{0.5, 2.0, 5, ShutterShape::box};
+    Wheel wheel(1.5 * pi);
+    const lightcuts::SphereLight<> lamp{{0.5f, 2.0f, -1.0f}, 0.25f, {3.0f, 2.0f, 1.0f}};
+    wheel.scene.spheres = {{{9.0f, 1.0f, 0.0f}, 0.5f, glm::vec3(1.0f)}, lamp};
+    wheel.motion.first_sphere = 1;
+    wheel.motion.sphere_count = 1;
+    wheel.scene.rigid_motions = {wheel.motion};
+    Scene still = wheel.scene;
+    set_in_motion(wheel.scene, shutter);
+    ASSERT_EQ(wheel.scene.spheres.size(), 1u) << "the other one stands still";
+    EXPECT_EQ(wheel.scene.spheres[0].radius, 0.5f);
+    ASSERT_EQ(wheel.scene.at_instants.spheres.size(), 5u);
+    for (std::uint32_t t = 0; t < 5; ++t) {
+        const auto& light = wheel.scene.at_instants.spheres[t];
+        EXPECT_EQ(light.instant, t);
+        EXPECT_EQ(light.radius, lamp.radius);
+        EXPECT_EQ(light.intensity, lamp.intensity);
+        const double second = shutter.second_at(static_cast<double>(wheel.scene.instants[t]));
+        const glm::dvec3 there = wheel.moved(glm::dvec3(lamp.center), second);
+        EXPECT_LT(glm::distance(glm::dvec3(light.center), there), 1e-5);
+    }
+
+    set_in_motion(still, {0.5, 0.0, 5, ShutterShape::box});
+    ASSERT_EQ(still.spheres.size(), 2u);
+    EXPECT_TRUE(still.at_instants.spheres.empty());
+    const glm::dvec3 there = wheel.moved(glm::dvec3(lamp.center), 0.5);
+    EXPECT_LT(glm::distance(glm::dvec3(still.spheres[1].center), there), 1e-5);
+}
+
 TEST(Motion, OfNothingIsNone) {
     Scene s = floor_scene();
     s.rigid_motions.push_back({0, 4, {}, {0, 1, 0}, 0.0, {0, 0, 0}});
