@@ -38,6 +38,9 @@ constexpr std::array fixed_scenes{FixedScene{"hall", builtin_hall, "--area-point
                                   FixedScene{"tableau", builtin_tableau, "--env-lights"},
                                   FixedScene{"wheel", builtin_wheel, "--env-lights"},
                                   FixedScene{"colonnade", builtin_colonnade, "--sky-lights and --indirect"},
+                                  FixedScene{"focus", builtin_focus, "--env-lights and --area-points"},
+                                  FixedScene{"haze", builtin_haze, "--area-points, --sky-lights and --indirect"},
+                                  FixedScene{"foliage", builtin_foliage, "--sky-lights and --indirect"},
                                   FixedScene{"screens", builtin_screens, "--area-points for its two ceiling panels"},
                                   FixedScene{"test-card", builtin_test_card, "--area-points for its glowing tiles"}};
 
@@ -78,6 +81,7 @@ Scene load_builtin(std::string_view scene) {
     if (name == "omni") return builtin_omni(options.lights.value_or(10'000));
     if (name == "directional") return builtin_directional(options.lights.value_or(3'000));
     if (name == "surfaces") return builtin_surfaces(options.lights.value_or(30'000), options.rotated.value_or(true));
+    if (name == "night") return builtin_night(options.lights.value_or(150));
     for (const FixedScene& fixed : fixed_scenes) {
         if (name != fixed.name) continue;
         if (options.lights) fail(scene, "its number of lights is not set by lights=; use " + std::string(fixed.lights));
@@ -116,7 +120,8 @@ Scene load_scene(std::string_view path_or_builtin, const Shutter& shutter) {
 }
 
 std::vector<std::string> builtin_names() {
-    return {"hall", "omni", "directional", "surfaces", "tableau", "wheel", "colonnade", "screens", "test-card"};
+    return {"hall",      "omni", "directional", "surfaces", "tableau", "wheel",    "focus",
+            "colonnade", "haze", "night",       "foliage",  "screens", "test-card"};
 }
 
 }  // namespace render

@@ -32,6 +32,22 @@ Scene builtin_wheel();
 /// most of what lights it: the rest is the sky's, and what the stone reflects.
 Scene builtin_colonnade();
 
+/// Glossy things on a table that recede from the camera, about 210,000 triangles, under the tableau's map and before a
+/// curtain of bulbs, 156 spherical lights: to be seen through a wide lens.
+Scene builtin_focus();
+
+/// A hall of columns, tables and bookcases with tall windows on one side, about 80,000 triangles, into which the sun
+/// shines: to be seen in fog, where the light stands in shafts.
+Scene builtin_haze();
+
+/// The colonnade's temple at night, about 220,000 triangles: under a dim moon, `lights` small lamps, spherical lights,
+/// fly about it in circles while the shutter is open. To be seen in fog.
+Scene builtin_night(std::size_t lights);
+
+/// Nine trees on a meadow, about 640,000 triangles: single leaves and blades of grass, of eleven materials that let
+/// light through, under sun and sky.
+Scene builtin_foliage();
+
 /// An office at night, about 40,000 triangles, with two monitors of 640 x 480 pixels that show pictures. Every pixel is
 /// an oriented light; two dim panels at the ceiling are emissive surfaces.
 Scene builtin_screens();

@@ -130,6 +130,21 @@ TEST(Colonnade, IsLitAsTheUserSays) {
     EXPECT_EQ(evening.indirect, 20'000u);
 }
 
+TEST(Night, HasAsManyLightsAsThePapersTemple) {
+    Options options;
+    const Scene s = lit("night", options);
+    EXPECT_EQ(s.environment_lights, 3000u);
+    EXPECT_EQ(options.indirect, 50'000u);
+}
+
+TEST(Haze, IsLitBySunSkyAndWhatTheyLight) {
+    Options options;
+    const Scene s = lit("haze", options);
+    EXPECT_EQ(s.sun_lights, 64u);
+    EXPECT_EQ(s.sky_lights, 5000u);
+    EXPECT_EQ(options.indirect, 50'000u);
+}
+
 TEST(Screens, EveryPixelIsALight) {
     Scene s = load_scene("builtin:screens");
     ASSERT_EQ(s.textures.size(), 2u);
@@ -182,7 +197,10 @@ class BuiltinPictures : public Programs {};
 
 TEST_F(BuiltinPictures, AreNeitherBlackNorNotANumber) {
     for (const std::string& name : render::builtin_names()) {
-        const std::string less = name == "colonnade" ? " --sky-lights 500 --indirect 300 --clamp off" : "";
+        const std::string less = name == "colonnade" ? " --sky-lights 500 --indirect 300 --clamp off"
+                                 : name == "haze"    ? " --sky-lights 500 --indirect 300"
+                                 : name == "night"   ? " --area-points 1 --indirect 300"
+                                                     : "";
         const auto result = render("builtin:" + name + " --quiet --size 12x9 --error-ratio 0.1" + less);
         ASSERT_EQ(result.status, 0) << name << ": " << result.err;
         const render::Picture picture = render::read_exr(folder / "render.exr");

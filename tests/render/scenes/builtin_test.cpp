@@ -21,8 +21,9 @@ using render::Scene;
 using testing::HasSubstr;
 
 TEST(Builtin, AllLoadWithCameras) {
-    EXPECT_EQ(render::builtin_names(), (std::vector<std::string>{"hall", "omni", "directional", "surfaces", "tableau",
-                                                                 "wheel", "colonnade", "screens", "test-card"}));
+    EXPECT_EQ(render::builtin_names(),
+              (std::vector<std::string>{"hall", "omni", "directional", "surfaces", "tableau", "wheel", "focus",
+                                        "colonnade", "haze", "night", "foliage", "screens", "test-card"}));
     for (const std::string& name : render::builtin_names()) {
         const Scene s = load_scene("builtin:" + name);
         EXPECT_EQ(s.name, "builtin:" + name);
@@ -80,16 +81,19 @@ TEST(Builtin, PowerDoesNotDependOnTheCount) {
         for (const auto& l : s.omni) sum += static_cast<double>(l.intensity.x + l.intensity.y + l.intensity.z);
         for (const auto& l : s.oriented) sum += static_cast<double>(l.intensity.x + l.intensity.y + l.intensity.z);
         for (const auto& l : s.directional) sum += static_cast<double>(l.intensity.x + l.intensity.y + l.intensity.z);
+        for (const auto& l : s.spheres) sum += static_cast<double>(l.intensity.x + l.intensity.y + l.intensity.z);
         return sum;
     };
+    EXPECT_NEAR(power("builtin:night") / power("builtin:night?lights=3000"), 1.0, 0.05);
     for (const std::string name : {"builtin:omni", "builtin:directional", "builtin:surfaces"}) {
         EXPECT_NEAR(power(name + "?lights=3000") / power(name + "?lights=30000"), 1.0, 0.05) << name;
     }
 }
 
 TEST(Builtin, AreDeterministic) {
-    for (const std::string name : {"hall", "omni?lights=500", "directional?lights=500", "surfaces?lights=500",
-                                   "tableau", "wheel", "colonnade", "screens", "test-card"}) {
+    for (const std::string name :
+         {"hall", "omni?lights=500", "directional?lights=500", "surfaces?lights=500", "tableau", "wheel", "focus",
+          "colonnade", "haze", "night?lights=20", "foliage", "screens", "test-card"}) {
         const Scene a = load_scene("builtin:" + name);
         const Scene b = load_scene("builtin:" + name);
         EXPECT_EQ(a.positions, b.positions);
@@ -97,6 +101,8 @@ TEST(Builtin, AreDeterministic) {
         EXPECT_EQ(a.triangle_material, b.triangle_material);
         for (std::size_t i = 0; i < a.omni.size(); ++i) EXPECT_EQ(a.omni[i].position, b.omni[i].position);
         for (std::size_t i = 0; i < a.oriented.size(); ++i) EXPECT_EQ(a.oriented[i].position, b.oriented[i].position);
+        ASSERT_EQ(a.spheres.size(), b.spheres.size());
+        for (std::size_t i = 0; i < a.spheres.size(); ++i) EXPECT_EQ(a.spheres[i].center, b.spheres[i].center);
     }
 }
 
@@ -134,13 +140,14 @@ TEST(Builtin, LightsStayOffGeometry) {
 TEST(Builtin, BadNames) {
     const auto refused = [](const std::string& name) { return refusal([&] { load_scene(name); }); };
     EXPECT_THAT(refused("builtin:cave"),
-                HasSubstr("hall, omni, directional, surfaces, tableau, wheel, colonnade, screens"));
+                HasSubstr("hall, omni, directional, surfaces, tableau, wheel, focus, colonnade, haze, night, foliage"));
     for (const char* name : {"builtin:omni?lights=0", "builtin:omni?lights=-4", "builtin:omni?lights=",
                              "builtin:omni?x=1", "builtin:omni?lights=5x", "builtin:surfaces?rotated=2"}) {
         EXPECT_THAT(refused(name), HasSubstr("lights=N")) << name;
     }
     EXPECT_THAT(refused("builtin:hall?lights=5"), HasSubstr("--area-points"));
     EXPECT_THAT(refused("builtin:tableau?lights=5"), HasSubstr("--env-lights"));
+    EXPECT_THAT(refused("builtin:haze?lights=5"), HasSubstr("--sky-lights"));
     EXPECT_THAT(refused("builtin:omni?rotated=1"), HasSubstr("surfaces"));
 }
 
