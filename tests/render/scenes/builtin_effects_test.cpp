@@ -123,11 +123,14 @@ TEST(Haze, SunStandsInShafts) {
     std::size_t lit = 0;
     std::size_t all = 0;
     std::size_t edges = 0;
-    for (float y = 0.25f; y < 6.0f; y += 0.5f) {
-        for (float x = -4.75f; x < 5.0f; x += 0.5f) {
+    for (int i = 0; i < 12; ++i) {
+        for (int j = 0; j < 20; ++j) {
             bool before = false;
-            for (float z = -11.0f; z < 11.0f; z += 0.25f) {
-                const bool is_lit = !rays.nearest({x, y, z}, towards_sun);
+            for (int k = 0; k < 88; ++k) {
+                const glm::vec3 p = glm::vec3(-4.75f, 0.25f, -11.0f) + glm::vec3(0.5f * static_cast<float>(j),
+                                                                                 0.5f * static_cast<float>(i),
+                                                                                 0.25f * static_cast<float>(k));
+                const bool is_lit = !rays.nearest(p, towards_sun);
                 lit += is_lit ? 1 : 0;
                 edges += is_lit != before ? 1 : 0;
                 before = is_lit;
