@@ -99,6 +99,7 @@ public:
 
     void print(int eye_rays) {
         options_.spp = eye_rays;
+        scene_.fog.points_per_ray = render::fog_points_per_ray(eye_rays);
         find_points(eye_rays);
         std::vector<Method> methods;
         methods.push_back({"multidimensional", "multidimensional", 0});

@@ -14,4 +14,7 @@ namespace render {
 /// Both references are kept.
 std::unique_ptr<Shader> make_multidimensional_shader(const Scene& scene, const RayScene& rays, const Options& options);
 
+/// The same where some lights exist at one instant each.
+std::unique_ptr<Shader> make_shader_of_moving_lights(const Scene& scene, const RayScene& rays, const Options& options);
+
 }  // namespace render

@@ -24,7 +24,7 @@ void add_fog(Scene& scene, const Options& options) {
     // Points of the surfaces themselves lie inside.
     const auto margin = static_cast<float>(0.01 * std::sqrt(lightcuts::diagonal2(box)));
     scene.fog = {lightcuts::UniformMedium(options.fog, {box.lo - margin, box.hi + margin}), options.fog_albedo,
-                 options.fog_anisotropy, std::max(4.0f, 64.0f / static_cast<float>(options.spp))};
+                 options.fog_anisotropy, fog_points_per_ray(options.spp)};
 }
 
 /// Only gather points that have an instant can be lit by lights that have one.
@@ -57,6 +57,8 @@ Scene prepare_scene(Options& options) {
 }
 
 Shade shade_of(const Options& options) { return options.diffuse_materials ? Shade::diffuse : Shade::full; }
+
+float fog_points_per_ray(int spp) { return std::max(4.0f, 64.0f / static_cast<float>(spp)); }
 
 Lens lens_of(const Options& options, const Camera& camera) {
     const double focus = options.focus ? static_cast<double>(*options.focus) : glm::length(camera.target - camera.eye);

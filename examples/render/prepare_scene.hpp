@@ -16,6 +16,9 @@ Scene prepare_scene(Options& options);
 
 Shade shade_of(const Options& options);
 
+/// Fog::points_per_ray for that many eye rays a pixel.
+float fog_points_per_ray(int spp);
+
 /// Focused on the camera's target where the options do not say.
 Lens lens_of(const Options& options, const Camera& camera);
 

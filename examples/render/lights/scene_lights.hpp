@@ -33,6 +33,8 @@ public:
     SceneLights& operator=(const SceneLights&) = delete;
 
     const Forest& forest() const { return forest_; }
+    /// The same trees but those of virtual lights.
+    const DirectForest& direct() const { return direct_; }
 
     /// Calls `f(forest)` with the same trees but those of virtual lights that the scene does not have: that some lights
     /// may be clamped is what a lightcut pays for even where there are no such lights.
