@@ -137,6 +137,8 @@ public:
 
 private:
     render::Scene make_scene(const std::string& name) {
+        // Methods clamp virtual lights in different ways, or not at all.
+        if (arguments_.reference_rays > 0) options_.clamp = {};
         // Lights may move; methods that cannot follow them are left out.
         options_.method = "multidimensional";
         if (!options_.is_given("--max-cut")) {

@@ -35,7 +35,7 @@ std::vector<Effort> efforts(const Curve& curve, double render::ErrorFigures::*fi
     return result;
 }
 
-/// The methods of this library that bound their errors.
+/// The methods that the others are rivals of; the unified cut, a reference of the paper, is one of those.
 bool is_lightcuts(const Curve& curve) {
     const std::string_view method = curve.method->method;
     return method == "lightcuts" || method == "multidimensional";

@@ -8,6 +8,7 @@
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include "adaptation.hpp"
 #include "moving_view.hpp"
 #include "prepare_scene.hpp"
 #include "rays/ray_scene.hpp"
@@ -93,7 +94,7 @@ public:
         Measurement result;
         const double start = process_seconds();
         const auto shader = render::make_shader(scene_, rays_, options);
-        if (options.adaptation) shader->adapt(*options.adaptation);
+        shader->adapt(options.adaptation ? *options.adaptation : render::measure_adaptation(view_, surfaces_, *shader));
         result.prepare_seconds = process_seconds() - start;
         std::vector<double> times;
         do {

@@ -23,7 +23,11 @@ void error_ratio_of_large_cuts(Options& options, double value) {
     options.max_cut = 4000;
 }
 
-void error_ratio_of_pixels(Options& options, double value) { options.error_ratio = static_cast<float>(value); }
+/// Sums over pairs clamp by transfer alone: they are compared with the sum that does not clamp.
+void error_ratio_of_pixels(Options& options, double value) {
+    options.error_ratio = static_cast<float>(value);
+    options.clamp = {};
+}
 
 }  // namespace
 

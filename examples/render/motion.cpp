@@ -12,6 +12,7 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
+#include <lightcuts/core/assertion.hpp>
 
 #include "bounding_box.hpp"
 
@@ -136,12 +137,15 @@ void move_spheres(Scene& scene, const Shutter& shutter) {
     std::vector<lightcuts::SphereLight<>> still = scene.spheres;
     std::vector<bool> moves(scene.spheres.size(), false);
     for (const RigidMotion& motion : scene.rigid_motions) {
+        LIGHTCUTS_ASSERT(motion.sphere_count <= scene.spheres.size() &&
+                         motion.first_sphere <= scene.spheres.size() - motion.sphere_count);
         for (std::uint32_t i = motion.first_sphere; i < motion.first_sphere + motion.sphere_count; ++i) {
             const lightcuts::SphereLight<> original = scene.spheres[i];
             const auto center_at = [&](double second) {
                 return moved(motion, turn_at(motion, second), original.center, second);
             };
             if (shutter.opens != 0.0) still[i].center = center_at(shutter.opens);
+            LIGHTCUTS_ASSERT(!moves[i]);
             moves[i] = motion.turn != 0.0 || motion.velocity != glm::dvec3(0.0);
             if (!moves[i]) continue;
             for (std::uint32_t t = 0; t < times.size(); ++t) {

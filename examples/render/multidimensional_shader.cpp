@@ -15,6 +15,8 @@ std::unique_ptr<Shader> make_multidimensional_shader(const Scene& scene, const R
     const auto make = [&]<class Forest>(const Forest& forest) -> std::unique_ptr<Shader> {
         return std::make_unique<PairShader<SceneLights, Forest>>(scene, rays, std::move(lights), forest, options);
     };
+    // Two sets of kinds, not the three of `SceneLights::visit`: each takes the compiler a minute, and an empty kind
+    // costs a sum over pairs next to nothing.
     const SceneLights& trees = *lights;
     return scene.virtual_count() > 0 ? make(trees.forest()) : make(trees.direct());
 }

@@ -65,9 +65,12 @@ public:
             }
         };
         look_at(scene_.virtual_lights);
-        look_at(scene_.volume_lights);
         look_at(scene_.at_instants.virtual_lights);
-        look_at(scene_.at_instants.volume_lights);
+        // Lights in fog of strong asymmetry are so bright ahead that those on surfaces would be clamped to nothing.
+        if (strongest == 0.0f) {
+            look_at(scene_.volume_lights);
+            look_at(scene_.at_instants.volume_lights);
+        }
         if (clamps_ && radiance > 0.0f && strongest > 0.0f) {
             product_.cut.clamp.transfer = largest_share * radiance * rays_apart_ / strongest;
         }

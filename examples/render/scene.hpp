@@ -205,7 +205,7 @@ struct Scene {
     /// Those that are added up at a point, of all kinds: spheres count by their points.
     std::size_t light_count() const {
         return omni.size() + oriented.size() + spots.size() + directional.size() + sphere_points.size() +
-               virtual_count() + at_instants.count() - at_instants.virtual_count();
+               virtual_lights.size() + volume_lights.size() + at_instants.count();
     }
     /// Those that stand for indirect light, at instants or not.
     std::size_t virtual_count() const {

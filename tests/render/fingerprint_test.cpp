@@ -75,6 +75,8 @@ TEST(Fingerprint, NamesWhateverChangesThePicture) {
         {"the scene's materials", [](Pictured& p) { p.scene.textures[0].texels[0].w = 0.4f; }},
         {"the lights", [](Pictured& p) { p.scene.omni[0].intensity.z = 2.0f; }},
         {"the lights", [](Pictured& p) { p.scene.virtual_lights.resize(1); }},
+        {"the lights", [](Pictured& p) { p.scene.volume_lights.resize(1); }},
+        {"the lights", [](Pictured& p) { p.scene.at_instants.volume_lights.resize(1); }},
         {"the surroundings",
          [](Pictured& p) { p.scene.background.environment = render::Environment{render::Picture(2, 1)}; }},
         {"the surroundings", [](Pictured& p) { p.scene.background.daylight.emplace(lightcuts::SunPosition{}); }},

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
+#include <lightcuts/core/basis.hpp>
 #include <lightcuts/estimate/exhaustive.hpp>
 #include <lightcuts/light/omni.hpp>
 #include <lightcuts/material/phase_function.hpp>
@@ -108,6 +109,45 @@ TEST(FogParticles, StopByTheExponentialLaw) {
     EXPECT_EQ(particles.free_flight(V(0.0f, 20.0f, 0.0f), forward, 0.5), std::numeric_limits<double>::infinity());
     EXPECT_FLOAT_EQ(particles.scattering_at(V(0.0f)).albedo.x, 0.8f);
     EXPECT_FLOAT_EQ(particles.scattering_at(V(0.0f)).asymmetry, 0.6f);
+}
+
+/// Oblique light that passes a box of fog: what it scatters is what the box lets not through.
+TEST(FogParticles, ScatterWhatFogTakesOfDistantLight) {
+    for (const V towards_light : {V(0.9f, 0.2f, 0.3f), V(0.0f, 1.0f, 0.0f), V(-0.3f, -0.1f, 0.8f)}) {
+        render::Scene s;
+        s.name = "fog";
+        s.positions = {V(0.0f), V(1e-3f, 0.0f, 0.0f), V(0.0f, 0.0f, 1e-3f)};
+        s.triangles = {{0, 1, 2}};
+        s.triangle_material = {0};
+        s.materials.resize(1);
+        s.materials[0].model = render::Material::Model::phong;
+        s.materials[0].base_color = V(0.0f);
+        const lightcuts::Box box{V(-2.0f, -1.0f, -2.0f), V(2.0f, 1.0f, 1.0f)};
+        const lightcuts::UniformMedium medium(0.4f, box);
+        s.fog = {medium, 0.01f, 0.0f, 8.0f};
+        const glm::dvec3 travel = -glm::normalize(glm::dvec3(towards_light));
+        s.directional.push_back({V(travel), V(3.0f)});
+        render::validate(s);
+        render::add_virtual_lights(s, render::RayScene(s), 2000, render::Shade::full, 1);
+        double flux = 0.0;
+        for (const auto& light : s.volume_lights) {
+            flux += 4.0 * std::numbers::pi * static_cast<double>(light.intensity.x);
+        }
+        // Over a plane before the box.
+        const lightcuts::Basis across(travel);
+        constexpr int steps = 400;
+        constexpr double half = 4.0;
+        double expected = 0.0;
+        for (int i = 0; i < steps; ++i) {
+            for (int k = 0; k < steps; ++k) {
+                const glm::dvec3 at = half * ((2.0 * i + 1.0) / steps - 1.0) * across.x +
+                                      half * ((2.0 * k + 1.0) / steps - 1.0) * across.y - 8.0 * travel;
+                const double way = medium.way_inside(V(at), V(travel), 100.0);
+                expected += -std::expm1(-0.4 * way) * 3.0 * 0.01 * std::pow(2.0 * half / steps, 2.0);
+            }
+        }
+        EXPECT_NEAR(flux / expected, 1.0, 0.05) << towards_light.x;
+    }
 }
 
 /// A closed room of side 2 whose walls emit radiance 1, albedo 0.5, filled with fog that absorbs nothing: the radiance

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -24,8 +25,7 @@ double mean_of(const Picture& picture, int channel = 0) {
 TEST_F(Programs, MultidimensionalPicturesAgreeWithTheSumOverAllPairs) {
     const std::string scene = "room.obj --area-points 300 --size 40x30 --spp 9 --quiet" + view;
     for (const std::string effect :
-         {"", " --aperture 0.4",
-          " --fog 0.15 --fog-anisotropy 0.5", " --aperture 0.4 --fog 0.15 --filter gaussian"}) {
+         {"", " --aperture 0.4", " --fog 0.15 --fog-anisotropy 0.5", " --aperture 0.4 --fog 0.15 --filter gaussian"}) {
         ASSERT_EQ(render(scene + effect + " --method exhaustive -o exact.exr").status, 0);
         for (const std::string method : {"multidimensional", "unified-cut"}) {
             ASSERT_EQ(render(scene + effect + " --reference exact.exr --method " + method).status, 0);
@@ -38,14 +38,38 @@ TEST_F(Programs, MultidimensionalPicturesAgreeWithTheSumOverAllPairs) {
 }
 
 TEST_F(Programs, MultidimensionalPicturesOfLitFogAgreeWithTheSumOverAllPairs) {
-    const std::string scene = "room.obj --size 40x30 --spp 9 --fog 0.15 --fog-anisotropy 0.5 --indirect 3000 "
-                              "--clamp off --quiet" +
-                              view;
+    const std::string scene =
+        "room.obj --size 40x30 --spp 9 --fog 0.15 --fog-anisotropy 0.5 --indirect 3000 "
+        "--clamp off --quiet" +
+        view;
     ASSERT_EQ(render(scene + " --method exhaustive -o exact.exr").status, 0);
     ASSERT_EQ(render(scene + " --reference exact.exr --method multidimensional").status, 0);
     const Json json = report("render.json");
     EXPECT_LT(json.at("error").at("relative_rmse"), 0.025);
     EXPECT_GT(json.at("lights").at("virtual"), 2000);
+}
+
+TEST_F(Programs, MultidimensionalPicturesOfMovingLightsInFogAgreeWithTheSumOverAllPairs) {
+    const std::string scene =
+        "builtin:night?lights=6 --size 12x9 --spp 8 --fog 0.05 --shutter 0.25 --instants 8 "
+        "--area-points 1 --indirect 400 --env-lights 40 --clamp off --quiet "
+        "--method multidimensional --aov instants";
+    ASSERT_EQ(render(scene + " --error-ratio 0 --max-cut 0 -o exact.exr").status, 0);
+    ASSERT_EQ(render(scene + " --reference exact.exr").status, 0);
+    const Json json = report("render.json");
+    EXPECT_LT(json.at("error").at("relative_rmse"), 0.025);
+    EXPECT_EQ(json.at("motion").at("lights"), 48);
+    EXPECT_GT(json.at("lights").at("virtual"), 200);
+    float most = 0.0f;
+    const Picture found = render::read_exr(folder / "render.exr");
+    for (const float instants : found.find("instants")->values) {
+        EXPECT_GE(instants, 1.0f);
+        EXPECT_LE(instants, 8.0f);
+        most = std::max(most, instants);
+    }
+    EXPECT_GT(most, 1.5f);
+    const Picture exact = render::read_exr(folder / "exact.exr");
+    for (const float instants : exact.find("instants")->values) { EXPECT_EQ(instants, 1.0f) << "single points"; }
 }
 
 TEST_F(Programs, MultidimensionalErrorsAreWithinTheirBounds) {

@@ -55,6 +55,18 @@ TEST(ScrambledSobol, IsUniformOverSeedsAndUncorrelatedBetweenPairs) {
     EXPECT_LT(std::fabs(between.value()), 0.005);
 }
 
+TEST(CenteredRecurrence, LiesNearTheMiddleOfSharesButNotInIt) {
+    const CenteredRecurrence sampler;
+    double sum = 0.0;
+    for (std::uint32_t i = 0; i < 4096; ++i) {
+        const double u = sampler(i, 0);
+        ASSERT_TRUE(u >= 0.375 && u < 0.625);
+        for (const double part : {0.375, 0.4375, 0.5, 0.5625}) EXPECT_NE(u, part);
+        sum += u;
+    }
+    EXPECT_NEAR(sum / 4096, 0.5, 1e-3);
+}
+
 TEST(CenteredRecurrence, BeginsInTheMiddleAndIsEvenForAnyCount) {
     const CenteredRecurrence sampler;
     EXPECT_EQ(sampler(0, 2), 0.5);

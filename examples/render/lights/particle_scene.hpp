@@ -63,7 +63,8 @@ private:
 /// The same with its fog: the library's ScatteringParticleScene.
 class FoggyParticleScene : public ParticleScene {
 public:
-    FoggyParticleScene(const ParticleScene& surfaces, const Fog& fog) : ParticleScene(surfaces), fog_(fog) {}
+    FoggyParticleScene(const ParticleScene& surfaces, const Fog& fog)
+        : ParticleScene(surfaces), fog_(fog), bounds_(lightcuts::merge(surfaces.bounds(), fog.medium.where())) {}
 
     FoggyParticleScene at(float time) const { return {ParticleScene::at(time), fog_}; }
 
@@ -72,8 +73,12 @@ public:
         return {glm::vec3(fog_.albedo), fog_.anisotropy};
     }
 
+    /// Of the scene at all times and of the fog: what is outside attenuates nothing.
+    const lightcuts::Box& bounds() const { return bounds_; }
+
 private:
     Fog fog_;
+    lightcuts::Box bounds_;
 };
 
 }  // namespace render

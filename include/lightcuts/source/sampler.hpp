@@ -97,8 +97,9 @@ struct IndependentSampler {
 /// even for any count. Dimensions 0 and 1 are recurrences too; all others are `IndependentSampler`.
 struct CenteredRecurrence {
     double operator()(std::uint32_t index, std::uint32_t dimension) const {
-        constexpr std::array starts{0.8191725133961645, 0.5, 0.5, 0.5};
-        constexpr std::array steps{0.8191725133961645, 0.6180339887498949, 0.7548776662466927, 0.5698402909980532};
+        constexpr double step0 = 0.8191725133961645;  // 1/x, x^4 = x + 1
+        constexpr std::array starts{step0, 0.5, 0.5, 0.5};
+        constexpr std::array steps{step0, 0.6180339887498949, 0.7548776662466927, 0.5698402909980532};
         if (dimension >= steps.size()) return IndependentSampler{}(index, dimension);
         const double turn = starts[dimension] + steps[dimension] * static_cast<double>(index);
         const double fraction = turn - std::floor(turn);

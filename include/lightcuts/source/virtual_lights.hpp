@@ -71,6 +71,7 @@ struct MediumScattering {
 /// - `free_flight(origin, direction, u)`: how far a particle gets before the medium stops it, were there no surface;
 ///   infinite if it leaves the medium. Drawn in proportion to what is stopped: u is uniform in [0, 1).
 /// - `scattering_at(position)`: a MediumScattering
+/// - `bounds()`, where directional lights are among the sources, hold the medium too: their particles start outside.
 template <class Sc, class S>
 concept ScatteringParticleScene = ParticleScene<Sc, S> && requires(const Sc& scene, glm::vec3 v, double u) {
     { scene.free_flight(v, v, u) } -> std::convertible_to<double>;
@@ -175,7 +176,7 @@ void follow(const Scene& scene, const Emission& emission, const Sequence& sample
             std::uint32_t longest_path, ParticleTally<typename Emission::S>& tally) {
     using S = typename Emission::S;
     constexpr bool scatters = ScatteringParticleScene<Scene, S>;
-    // For each way, two more decide how far it goes through a medium. Samplers use dimensions in pairs.
+    // For each way, one more says how far it goes through a medium, and one is left out: they come in pairs.
     constexpr std::uint32_t numbers = scatters ? 6 : 4;
     // Together, as samplers may share work among consecutive dimensions.
     const auto four_numbers = [&](std::uint32_t dimension) {

@@ -45,6 +45,8 @@ public:
 
     bool is_there() const { return extinction_ > 0.0; }
     float extinction() const { return static_cast<float>(extinction_); }
+    /// The box that it fills; empty if there is none.
+    const Box& where() const { return where_; }
 
     float transmittance(const glm::vec3& from, const glm::vec3& to) const {
         if (!is_there()) return 1.0f;
