@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -68,8 +69,12 @@ TEST_F(Programs, MultidimensionalPicturesOfMovingLightsInFogAgreeWithTheSumOverA
         most = std::max(most, instants);
     }
     EXPECT_GT(most, 1.5f);
-    const Picture exact = render::read_exr(folder / "exact.exr");
-    for (const float instants : exact.find("instants")->values) { EXPECT_EQ(instants, 1.0f) << "single points"; }
+    // Finer clusters have fewer instants each.
+    const auto sum = [](const Picture& picture) {
+        const auto& values = picture.find("instants")->values;
+        return std::accumulate(values.begin(), values.end(), 0.0);
+    };
+    EXPECT_LT(sum(render::read_exr(folder / "exact.exr")), sum(found));
 }
 
 TEST_F(Programs, MultidimensionalErrorsAreWithinTheirBounds) {
