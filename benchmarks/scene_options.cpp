@@ -12,11 +12,11 @@ namespace benchmark {
 namespace {
 
 constexpr std::array<std::string_view, 2> keys_of_builtins = {"lights", "rotated"};
-constexpr std::array<std::string_view, 28> keys = {
-    "area-points", "env",         "env-lights", "env-scale", "env-rotate",     "sun-sky",       "turbidity",
-    "sky-lights",  "ground",      "indirect",   "clamp",     "clamp-ratio",    "materials",     "seed",
-    "spp",         "filter",      "aperture",   "focus",     "fog-anisotropy", "fog-albedo",    "fog",
-    "adaptation",  "error-ratio", "max-cut",    "shutter",   "instants",       "shutter-shape", "time"};
+constexpr std::array<std::string_view, 29> keys = {
+    "area-points", "env",      "env-lights",     "env-scale",   "env-rotate", "sun-sky",    "turbidity",   "sky-lights",
+    "ground",      "indirect", "clamp",          "clamp-ratio", "materials",  "seed",       "spp",         "filter",
+    "aperture",    "focus",    "fog-anisotropy", "fog-albedo",  "fog",        "adaptation", "error-ratio", "max-cut",
+    "shutter",     "instants", "shutter-shape",  "time",        "pair-sides"};
 
 template <std::size_t N>
 bool contains(const std::array<std::string_view, N>& words, std::string_view word) {

@@ -28,6 +28,7 @@ const std::vector<std::string> methods = {
     "exhaustive", "lightcuts",     "multidimensional",   "unified-cut",         "ward",
     "power",      "tree-sampling", "adaptive-splitting", "stochastic-lightcuts"};
 const std::vector<std::string> later_methods = {"reconstruction", "row-column"};
+const std::vector<std::string> pair_sides = {"bounds", "sizes"};
 const std::vector<std::string> builders = {"binned", "agglomerate", "longest-axis"};
 
 bool contains(const std::vector<std::string>& words, const std::string& word) {
@@ -274,6 +275,12 @@ Options parse_options(int argc, const char* const* argv) {
          [&](const std::string& s) {
              if (!contains(builders, s)) refuse("--builder", s, "one of " + listed(builders));
              options.builder = s;
+         });
+    text("--pair-sides", "NAME",
+         "which side of a pair of clusters is split: " + listed(pair_sides) + " (" + options.pair_sides + ")",
+         [&](const std::string& s) {
+             if (!contains(pair_sides, s)) refuse("--pair-sides", s, "one of " + listed(pair_sides));
+             options.pair_sides = s;
          });
     text("--lights", "FILE", "more lights, CSV: kind,x,y,z,dx,dy,dz,r,g,b", [&](const std::string& s) {
         if (s.empty()) refuse("--lights", "''", "a file name");

@@ -41,6 +41,7 @@ public:
         : scene_(scene), rays_(rays), lights_(std::move(lights)), forest_(forest),
           clamps_(options.clamp.is_automatic()), shows_instants_(options.has_aov("instants")) {
         product_.separate_points = options.method == "unified-cut";
+        if (options.pair_sides == "sizes") product_.side_rule = lightcuts::SideRule::sizes;
         // A light of one instant is as many times as strong as there are instants, but lights few of a pixel's rays.
         if (scene.at_instants.virtual_count() > 0) {
             rays_apart_ = static_cast<float>(

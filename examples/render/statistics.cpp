@@ -55,6 +55,7 @@ Json options_json(const RunReport& report) {
     json["ward_threshold"] = as_written(o.ward_threshold);
     json["splitting_threshold"] = as_written(o.splitting_threshold);
     json["builder"] = o.builder;
+    json["pair_sides"] = o.pair_sides;
     json["lights"] = path_or_null(o.lights);
     json["area_points"] = o.area_points;
     json["area_lights"] = o.area_lights ? Json(*o.area_lights) : Json(nullptr);

@@ -44,6 +44,28 @@ TEST(Gather, RatioZeroIsTheSumOverAllPairs) {
     }
 }
 
+/// Whichever side is split, the sum is within its bound, and exact for a ratio of 0.
+TEST(Gather, SidesMayBeChosenBySize) {
+    for (std::uint64_t seed = 0; seed < 12; ++seed) {
+        Random random(seed);
+        Room<V> room(seed);
+        const auto lights = room.oriented(400);
+        const auto occluders = room.occluders();
+        const ScalarOccluders oracle{occluders};
+        const LightTree tree(lights);
+        const auto points = diffuse_points(random, 200, random.decades(-2, 0), random.between(0, 1.5));
+        const glm::dvec3 truth = sum_of_pairs(points, lights, oracle);
+        ProductOptions options{.cut = {.error_ratio = 0.02f, .max_cut = 0, .exhaustive_below = 0}};
+        const std::uint32_t by_bounds = gather(tree, points, oracle, options).cut_size;
+        options.side_rule = SideRule::sizes;
+        const auto result = gather(tree, points, oracle, options);
+        expect_within_bound(result, truth);
+        EXPECT_NE(result.cut_size, by_bounds) << "other sides, another cut";
+        options.cut.error_ratio = 0.0f;
+        expect_near(gather(tree, points, oracle, options).radiance, truth, 2e-5);
+    }
+}
+
 template <class Points, class Lights>
 void expect_bounded(const Points& points, const Lights& lights, const Occluders& occluders, float ratio) {
     const ScalarOccluders oracle{occluders};

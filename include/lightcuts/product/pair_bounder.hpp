@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -69,8 +70,8 @@ public:
     using S = typename Lights::spectrum;
     using Node = ProductNode<S>;
 
-    PairBounder(const Lights& lights, const Points& points, const Policy& policy)
-        : lights_(lights), points_(points), policy_(policy) {}
+    PairBounder(const Lights& lights, const Points& points, const Policy& policy, SideRule rule)
+        : lights_(lights), points_(points), policy_(policy), rule_(rule) {}
 
     /// `priority(node)`: after the bound has changed. `threshold`: of such priorities; nodes below are not split.
     template <class Priority>
@@ -158,6 +159,8 @@ private:
                 n.side = PairSide::light;
             } else if (light_tree.topology().is_leaf(n.light)) {
                 n.side = PairSide::gather;
+            } else if (rule_ == SideRule::sizes) {
+                n.side = larger_side(gather_tree, light_tree, n);
             } else {
                 members[block.size()] = &n;
                 block.add(some_leaf(gather_tree.topology(), n.gather), n.light);
@@ -168,13 +171,36 @@ private:
         flush();
     }
 
+    /// By SideRule::sizes, with the same tenth for each split in a row.
+    template <class GatherTree, class LightTree>
+    static PairSide larger_side(const GatherTree& gather_tree, const LightTree& light_tree, const Node& n) {
+        const auto& points = gather_tree.clusters()[n.gather];
+        const auto& lights = light_tree.clusters()[n.light];
+        double of_points = std::sqrt(diagonal2(points.box));
+        const bool apart = !touch(points.box, lights.box);
+        if constexpr (requires { points.envelope.cosine_lobe().normal.sin2_half; }) {
+            if (apart) of_points *= std::fmax(0.0, cos_half_angle(points.envelope.cosine_lobe().normal));
+        }
+        const double of_lights = std::sqrt(diagonal2(lights.box));
+        return of_points * rise(n.light_splits) > of_lights * rise(n.gather_splits) ? PairSide::gather
+                                                                                    : PairSide::light;
+    }
+    template <class Box1>
+    static bool touch(const Box1& a, const Box1& b) {
+        for (int c = 0; c < 3; ++c) {
+            if (a.hi[c] < b.lo[c] || b.hi[c] < a.lo[c]) return false;
+        }
+        return true;
+    }
+
     /// A leaf below `n` at about its middle, whatever the representatives.
     static std::uint32_t some_leaf(const ClusterTree& tree, std::uint32_t n) { return tree.left_leaf(tree.right(n)); }
 
-    static double residue(const S& unit, int splits) {
-        double rise = 1.0;
-        for (int i = 0; i < splits; ++i) rise *= 1.1;
-        return static_cast<double>(channel_max(unit)) * rise;
+    static double residue(const S& unit, int splits) { return static_cast<double>(channel_max(unit)) * rise(splits); }
+    static double rise(int splits) {
+        double factor = 1.0;
+        for (int i = 0; i < splits; ++i) factor *= 1.1;
+        return factor;
     }
 
     static void lower_bound(Node& n, const S& unit) {
@@ -185,6 +211,7 @@ private:
     const Lights& lights_;
     const Points& points_;
     const Policy& policy_;
+    SideRule rule_;
 };
 
 }  // namespace lightcuts::detail

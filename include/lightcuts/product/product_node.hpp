@@ -9,6 +9,17 @@ namespace lightcuts {
 /// Which side of a pair of clusters is split.
 enum class PairSide : std::uint8_t { undecided, gather, light };
 
+/// How the side of a pair to split is chosen.
+enum class SideRule : std::uint8_t {
+    /// The side whose collapse to a single gather point or light lowers the bound more.
+    bounds,
+    /// The larger side: the light cluster's diagonal is compared with that of the gather points' times the cosine of
+    /// their cone of normals, as printed in [Multidimensional Lightcuts 2006, appendix A]. It looks at no bounds, and
+    /// so
+    /// takes less time for a split; the cuts of pixels are mostly larger.
+    sizes
+};
+
 /// A pair of a cluster of gather points and a cluster of lights: a node of the product graph [Multidimensional
 /// Lightcuts 2006, section 3.1].
 template <Spectrum S>

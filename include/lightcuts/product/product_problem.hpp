@@ -53,6 +53,7 @@ struct ProductOptions {
     /// depend on what the refinement has seen: unbiased for that cut where strengths and intensities are each of one
     /// hue, for one more shadow ray a pair. (Of several channels that vary, a pair is drawn by their sum.)
     bool redraw = false;
+    SideRule side_rule = SideRule::bounds;  ///< which side of a pair is split
 };
 
 /// The sum over pairs of gather points and lights as a refinement problem: a cut through their product graph, which is
@@ -75,7 +76,7 @@ public:
                    const ProductOptions& options, Total& total, std::uint32_t& queries,
                    ReusableList<VisibilityQuery>& query_list)
         : Criterion(total, options.cut), lights_(lights), points_(points), oracle_(oracle), options_(options),
-          queries_(queries), query_list_(query_list), bounder_(lights, points, policy) {}
+          queries_(queries), query_list_(query_list), bounder_(lights, points, policy, options.side_rule) {}
 
     void roots(ReusableList<Node>& out) {
         total_.start(options_.cut.clamp, lights_.forest());
