@@ -34,7 +34,7 @@ public:
     /// throws: invalid_input if `instants` is not in 1 to 65536, or naming the light whose instant is not below it.
     /// memory: see TimeVectors.
     TimedForest(const forest_type& forest, std::uint32_t instants) : forest_(forest), instants_(instants) {
-        detail::for_each_kind<forest_type::kinds>([this](auto k) { build_kind<k>(); });
+        detail::for_each_kind<forest_type::kinds>([this](auto k) { this->template build_kind<k>(); });
     }
 
     const forest_type& forest() const { return forest_; }
