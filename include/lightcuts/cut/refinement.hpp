@@ -34,7 +34,8 @@ struct RefinementCandidate {
 /// - `precedes(a, b)`: a total order that breaks ties of priority, infinite ones above all.
 ///
 /// Optional:
-/// - `static constexpr std::size_t most_children`: 2 if not stated.
+/// - `static constexpr std::size_t most_children`, or a function `most_children()` where only the problem knows: 2 if
+///   not stated.
 /// - `static constexpr bool fixed_priorities = true`: `priority` of a node never changes, though the threshold may. The
 ///   frontier then is a heap, and a split costs O(log n) whatever the rounds.
 /// - `is_final(node)`: true if the node can never be refined; the engine then looks at it no more.
@@ -117,7 +118,8 @@ public:
         const auto visit = [this](auto&& f) { this->for_each(f); };
         if constexpr (requires { problem.observe(visit); }) problem.observe(visit);
         const std::size_t room = options.max_nodes > size() ? options.max_nodes - size() : 0;
-        const std::size_t most_splits = room / (most_children<P> - 1);
+        const std::size_t children = most_children(problem);
+        const std::size_t most_splits = room / (children - 1);
         // At the limit all that is above the threshold is tightened once more, and then no more.
         const double fraction = most_splits == 0 ? 0.0 : (std::min)(options.round_fraction, 1.0);
         while (!choose(problem, fraction)) {
@@ -132,11 +134,11 @@ public:
             stop_ = StopReason::limit;
             return false;
         }
-        nodes_.reserve(nodes_.size() + most_children<P> * chosen_.size());
+        nodes_.reserve(nodes_.size() + children * chosen_.size());
         for (const RefinementCandidate& candidate : chosen_) {
             [[maybe_unused]] const std::size_t before = nodes_.size();
             problem.split(std::as_const(nodes_)[candidate.at], nodes_);
-            LIGHTCUTS_ASSERT(nodes_.size() - before <= most_children<P>);
+            LIGHTCUTS_ASSERT(nodes_.size() - before <= children);
             keys_[candidate.at] = hole;
             holes_.push_back(candidate.at);
         }
@@ -368,15 +370,17 @@ private:
         p.tighten(nodes, candidates);
     };
     template <class P>
-    static constexpr std::size_t children_of() {
-        if constexpr (requires { P::most_children; }) {
+    static constexpr std::size_t most_children(const P& problem) {
+        if constexpr (requires { problem.most_children(); }) {
+            LIGHTCUTS_ASSERT(problem.most_children() >= 2);
+            return problem.most_children();
+        } else if constexpr (requires { P::most_children; }) {
             static_assert(P::most_children >= 2, "a problem splits nodes into two or more");
             return P::most_children;
+        } else {
+            return 2;
         }
-        return 2;
     }
-    template <class P>
-    static constexpr std::size_t most_children = children_of<P>();
 
     static constexpr double infinity = std::numeric_limits<double>::infinity();
     static constexpr double final_node = -1.0;  ///< key of a node that can never be refined
