@@ -138,29 +138,32 @@ private:
 
 namespace detail {
 
-[[noreturn]] inline void refuse_piece(std::size_t i, const Piece& piece, const std::string& what) {
-    LIGHTCUTS_THROW(
-        invalid_input("cut, piece " + std::to_string(i) + ", node " + std::to_string(piece.node()) + ": " + what));
+inline constexpr std::size_t no_cut_index = static_cast<std::size_t>(-1);
+
+/// `cut`: which one of a file.
+[[noreturn]] inline void refuse_piece(std::size_t i, std::uint32_t node, const std::string& what,
+                                      std::size_t cut = no_cut_index) {
+    LIGHTCUTS_THROW(invalid_input("cut" + (cut == no_cut_index ? std::string() : " " + std::to_string(cut)) +
+                                  ", piece " + std::to_string(i) + ", node " + std::to_string(node) + ": " + what));
 }
 
 /// Counts leaves of a tree along a cut.
 class CutWalk {
 public:
-    explicit CutWalk(const ClusterTree& tree) : tree_(tree) {}
+    explicit CutWalk(const ClusterTree& tree, std::size_t cut = no_cut_index) : tree_(tree), cut_(cut) {}
 
     /// The piece of `node`, the next one of the cut.
     /// throws: invalid_input if no cut goes on so. cost: O(1), in trees that are not binary O(nodes passed).
     Piece next(std::size_t i, std::uint32_t node) {
         if (node >= tree_.size()) {
-            refuse_piece(i, {node, 0},
-                         "the tree has only " + std::to_string(tree_.size()) + " nodes; a cut of another");
+            refuse(i, node, "the tree has only " + std::to_string(tree_.size()) + " nodes; a cut of another");
         }
-        if (i > 0 && node <= last_) refuse_piece(i, {node, 0}, "nodes of a cut have to ascend; sort them");
+        if (i > 0 && node <= last_) refuse(i, node, "nodes of a cut have to ascend; sort them");
         const std::uint32_t first = tree_.left_leaf(node);
-        if (i > 0 && first <= last_) refuse_piece(i, {node, 0}, "is above the piece before; take one of the two");
+        if (i > 0 && first <= last_) refuse(i, node, "is above the piece before; take one of the two");
         // Between a complete subtree and the next leaf there are but nodes above it.
         for (std::uint32_t n = i > 0 ? last_ + 1 : 0; n < first; ++n) {
-            if (tree_.is_leaf(n)) refuse_piece(i, {node, 0}, "leaves out leaf node " + std::to_string(n));
+            if (tree_.is_leaf(n)) refuse(i, node, "leaves out leaf node " + std::to_string(n));
         }
         last_ = node;
         leaf_end_ += static_cast<std::uint32_t>(tree_.leaf_count(node));
@@ -170,13 +173,19 @@ public:
     void finish(std::size_t pieces) const {
         if (leaf_end_ != tree_.item_count()) {
             LIGHTCUTS_THROW(invalid_input(
-                "cut of " + std::to_string(pieces) + " pieces: covers " + std::to_string(leaf_end_) +
-                " of the tree's " + std::to_string(tree_.item_count()) + " leaves; it is cut short, or another's"));
+                "cut" + (cut_ == no_cut_index ? std::string() : " " + std::to_string(cut_)) + " of " +
+                std::to_string(pieces) + " pieces: covers " + std::to_string(leaf_end_) + " of the tree's " +
+                std::to_string(tree_.item_count()) + " leaves; it is cut short, or another's"));
         }
     }
 
 private:
+    [[noreturn]] void refuse(std::size_t i, std::uint32_t node, const std::string& what) const {
+        refuse_piece(i, node, what, cut_);
+    }
+
     const ClusterTree& tree_;
+    std::size_t cut_;
     std::uint32_t last_ = 0;
     std::uint32_t leaf_end_ = 0;
 };
@@ -185,7 +194,7 @@ template <class V>
 void check_finite(std::size_t i, const Piece& piece, const V& value) {
     if constexpr (PiecewiseValue<V>) {
         for (int c = 0; c < channels_of<V>; ++c) {
-            if (!std::isfinite(value_channel(value, c))) refuse_piece(i, piece, "the value is not finite");
+            if (!std::isfinite(value_channel(value, c))) refuse_piece(i, piece.node(), "the value is not finite");
         }
     }
 }
@@ -202,7 +211,7 @@ void validate(const ClusterTree& tree, const F& f) {
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         const Piece expected = walk.next(i, pieces[i].node());
         if (pieces[i] != expected) {
-            detail::refuse_piece(i, pieces[i],
+            detail::refuse_piece(i, pieces[i].node(),
                                  "is said to end at leaf " + std::to_string(pieces[i].leaf_end()) + ", not " +
                                      std::to_string(expected.leaf_end()) + "; a cut of another tree");
         }
