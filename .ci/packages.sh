@@ -8,7 +8,7 @@ renderer_packages=(
 )
 test_packages=(
     ccache clang clang-format clang-tidy doxygen libgtest-dev libgmock-dev
-    libcgal-dev pkgconf libc++-14-dev libc++abi-14-dev
+    libcgal-dev libeigen3-dev pkgconf libc++-14-dev libc++abi-14-dev
 )
 
 fuzz_packages=(clang libclang-rt-14-dev)

@@ -1,4 +1,5 @@
 #include <lightcuts/piecewise/approximate.hpp>
+#include <lightcuts/piecewise/gain.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -218,6 +219,56 @@ TEST(OrderedApproximation, GoesOnByASecondCriterion) {
         }
         // A child may be larger than its parent, and then is split at once; so the comparison is with what was split.
         EXPECT_GE(std::max(smallest_split, largest_left), smallest_split);
+    });
+}
+
+/// The least squared error of a cut of the subtree of so many pieces, by trying all.
+std::vector<double> least_errors(const Subject& s, std::uint32_t n) {
+    constexpr double none = std::numeric_limits<double>::infinity();
+    if (s.tree.is_leaf(n)) return {none, 0.0};
+    std::vector<double> best{0.0};
+    s.tree.for_each_child(n, [&](std::uint32_t child) {
+        const auto below = least_errors(s, child);
+        std::vector<double> both(best.size() + below.size() - 1, none);
+        for (std::size_t i = 0; i < best.size(); ++i) {
+            for (std::size_t j = 0; j < below.size(); ++j) both[i + j] = std::min(both[i + j], best[i] + below[j]);
+        }
+        best = both;
+    });
+    best[1] = s.squared(n);
+    return best;
+}
+
+TEST(Gains, LeadToTheFewestPieces) {
+    for_subjects([](const Subject& s) {
+        const auto least = least_errors(s, s.tree.root());
+        const auto gain = gains(s.tree, s.of);
+        const double all = s.squared(s.tree.root());
+        // The largest gain of the whole, from the definition.
+        double expected = 0.0;
+        for (std::size_t k = 2; k < least.size(); ++k) {
+            expected = std::max(expected, (all - least[k]) / static_cast<double>(k - 1));
+        }
+        EXPECT_NEAR(gain.back(), expected, 1e-9 * expected);
+        for (const double share : {0.02, 0.1, 0.3, 0.7}) {
+            const double most = share * std::sqrt(all);
+            OrderedApproximation<float> by_gain;
+            by_gain.start(s.tree, s.of);
+            by_gain.refine_to_total_error(most, [&](std::uint32_t n) { return gain[n]; });
+            EXPECT_LE(by_gain.total_error(), most * (1 + 1e-12));
+            // On the hull of least errors over sizes it is the best; the last step may end short of that.
+            std::size_t fewest = 1;
+            while (fewest < least.size() && !(least[fewest] <= most * most * (1 + 1e-9))) ++fewest;
+            EXPECT_GE(by_gain.size() + 1, fewest);
+        }
+        // Refined down to a gain, it is on the hull.
+        for (const double level : {0.9, 0.5, 0.1, 0.01}) {
+            OrderedApproximation<float> by_gain;
+            by_gain.start(s.tree, s.of);
+            by_gain.refine([&](std::uint32_t n) { return gain[n]; }, level * gain.back());
+            const double error = by_gain.total_error() * by_gain.total_error();
+            EXPECT_LE(error, least[by_gain.size()] * (1 + 1e-6) + 1e-9 * all);
+        }
     });
 }
 

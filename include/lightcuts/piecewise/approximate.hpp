@@ -112,17 +112,23 @@ public:
     /// throws: invalid_input if `node_deviation` is negative or no number.
     StopReason refine_by_error(double node_deviation, std::size_t max_size = unlimited) {
         detail::check_deviation(node_deviation, "node_deviation");
-        return refine([this](std::uint32_t n) { return (*moments_)[n].total_squared_deviation(); },
-                      node_deviation * node_deviation, max_size);
+        return refine([this](std::uint32_t n) { return error(n); }, node_deviation * node_deviation, max_size);
     }
 
     /// Refines nodes, that of the largest error first, until the L2 error of the whole, sqrt(sum |C| var), is at most
     /// `deviation` or there are `max_size` pieces. Nodes of equal error are refined together. Fewer pieces than by
     /// error of nodes, less evenly spread. throws: invalid_input if `deviation` is negative or no number.
     StopReason refine_to_total_error(double deviation, std::size_t max_size = unlimited) {
+        return refine_to_total_error(
+            deviation, [this](std::uint32_t n) { return error(n); }, max_size);
+    }
+
+    /// The same in an order of your own, as by `gains`, which takes the fewest pieces.
+    /// pre: `priority(node)` is as in `refine`, and is positive for a node with an error.
+    template <std::invocable<std::uint32_t> Priority>
+    StopReason refine_to_total_error(double deviation, Priority priority, std::size_t max_size = unlimited) {
         detail::check_deviation(deviation, "deviation");
-        auto by_error = [this](std::uint32_t n) { return (*moments_)[n].total_squared_deviation(); };
-        TotalProblem<decltype(by_error)> problem{{*this, by_error, 0.0}, deviation * deviation};
+        TotalProblem<Priority> problem{{*this, priority, 0.0}, deviation * deviation};
         return run(problem, max_size);
     }
 
@@ -192,7 +198,7 @@ private:
         bool precedes(Node a, Node b) const { return a < b; }
     };
 
-    /// Ends when the sum of all priorities is small enough.
+    /// Ends when the sum of all errors is small enough.
     template <class Priority>
     struct TotalProblem : Problem<Priority> {
         using Node = std::uint32_t;
@@ -211,9 +217,9 @@ private:
             this->least = total <= budget ? std::numeric_limits<double>::infinity() : 0.0;
         }
         void split(Node n, ReusableList<Node>& out) {
-            total -= this->priority(n);
+            total -= this->owner.error(n);
             this->owner.tree_->for_each_child(n, [&](Node child) {
-                total += this->priority(child);
+                total += this->owner.error(child);
                 out.append(child);
             });
         }
@@ -227,9 +233,10 @@ private:
         return refinement_.stop_reason();
     }
 
+    double error(std::uint32_t n) const { return (*moments_)[n].total_squared_deviation(); }
     double sum_of_errors() const {
         double sum = 0.0;
-        refinement_.for_each([&](std::uint32_t n) { sum += (*moments_)[n].total_squared_deviation(); });
+        refinement_.for_each([&](std::uint32_t n) { sum += error(n); });
         return sum * detail::sum_inflation(static_cast<double>(refinement_.size()));
     }
 
