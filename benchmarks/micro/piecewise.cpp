@@ -36,9 +36,8 @@ using Random = std::mt19937_64;
 
 double unit(Random& random) { return uniform01(random()); }
 
-/// Random refinement of a tree to so many pieces.
-Function random_function(const ClusterTree& tree, Random& random, std::size_t size) {
-    std::vector<std::uint32_t> nodes{tree.root()};
+/// Random refinement of a cut to so many pieces.
+Function random_function(const ClusterTree& tree, Random& random, std::size_t size, std::vector<std::uint32_t> nodes) {
     while (nodes.size() < size) {
         std::uint32_t& n = nodes[random() % nodes.size()];
         if (tree.is_leaf(n)) continue;
@@ -93,6 +92,43 @@ std::size_t merge_some(const std::vector<Function>& f, int first, std::index_seq
     return nodes;
 }
 
+/// The product of eight functions in one pass, over that of pairs, of these, and of these.
+nlohmann::json against_pairs(const char* what, const std::vector<Function>& f, int runs) {
+    const auto count = static_cast<int>(f.size());
+    Function out, a[4], b[2];
+    const auto at = [&](int i) -> const Function& { return f[static_cast<std::size_t>(i % count)]; };
+    const double one = nanoseconds(runs, count, [&](int i) {
+        product(out, at(i), at(i + 1), at(i + 2), at(i + 3), at(i + 4), at(i + 5), at(i + 6), at(i + 7));
+        return 1;
+    });
+    const double fold = nanoseconds(runs, count, [&](int i) {
+        merge_some(f, i, std::make_index_sequence<8>{});
+        return 1;
+    });
+    const double pairs = nanoseconds(runs, count, [&](int i) {
+        for (int k = 0; k < 4; ++k) product(a[k], at(i + 2 * k), at(i + 2 * k + 1));
+        for (int k = 0; k < 2; ++k) product(b[k], a[2 * k], a[2 * k + 1]);
+        product(out, b[0], b[1]);
+        return 1;
+    });
+    // In storage of their own each time.
+    const double fresh = nanoseconds(runs, count, [&](int i) {
+        Function c[4], d[2], e;
+        for (int k = 0; k < 4; ++k) product(c[k], at(i + 2 * k), at(i + 2 * k + 1));
+        for (int k = 0; k < 2; ++k) product(d[k], c[2 * k], c[2 * k + 1]);
+        product(e, d[0], d[1]);
+        sink += static_cast<double>(e.size());
+        return 1;
+    });
+    std::printf(
+        "8 %s at once over a tree of pairs: as a new function %.2f, folded %.2f; if pairs allocate, %.2f, %.2f\n", what,
+        one / pairs, fold / pairs, one / fresh, fold / fresh);
+    return {{"product", one / pairs},
+            {"fold", fold / pairs},
+            {"product_over_allocating", one / fresh},
+            {"fold_over_allocating", fold / fresh}};
+}
+
 nlohmann::json merging(int runs) {
     constexpr std::size_t size = 256;
     constexpr int count = 256;
@@ -101,7 +137,7 @@ nlohmann::json merging(int runs) {
     std::vector<Function> f;
     std::vector<Eigen::SparseVector<float>> sparse;
     for (int i = 0; i < count; ++i) {
-        f.push_back(random_function(tree, random, size));
+        f.push_back(random_function(tree, random, size, {tree.root()}));
         std::vector<int> support;
         while (support.size() < size) {
             support.push_back(static_cast<int>(random() % tree.size()));
@@ -147,40 +183,13 @@ nlohmann::json merging(int runs) {
                      });
                return nodes;
            }));
-    // As new functions: one pass, or one of two after the other.
-    Function out, a[4], b[2];
-    const auto at = [&](int i) -> const Function& { return f[static_cast<std::size_t>(i % count)]; };
-    const double one = nanoseconds(runs, count, [&](int i) {
-        product(out, at(i), at(i + 1), at(i + 2), at(i + 3), at(i + 4), at(i + 5), at(i + 6), at(i + 7));
-        return 1;
-    });
-    const double pairs = nanoseconds(runs, count, [&](int i) {
-        for (int k = 0; k < 4; ++k) product(a[k], at(i + 2 * k), at(i + 2 * k + 1));
-        for (int k = 0; k < 2; ++k) product(b[k], a[2 * k], a[2 * k + 1]);
-        product(out, b[0], b[1]);
-        return 1;
-    });
-    // What people have: a new function each time.
-    const double fresh = nanoseconds(runs, count, [&](int i) {
-        Function c[4], d[2], e;
-        for (int k = 0; k < 4; ++k) product(c[k], at(i + 2 * k), at(i + 2 * k + 1));
-        for (int k = 0; k < 2; ++k) product(d[k], c[2 * k], c[2 * k + 1]);
-        product(e, d[0], d[1]);
-        sink += static_cast<double>(e.size());
-        return 1;
-    });
-    const double fold = nanoseconds(runs, count, [&](int i) {
-        merge_some(f, i, std::make_index_sequence<8>{});
-        return 1;
-    });
-    std::printf(
-        "8 at once into a new function: %.2f of a tree of pairs in storage that is kept, %.2f in new; folded, "
-        "%.2f and %.2f\n",
-        one / pairs, one / fresh, fold / pairs, fold / fresh);
-    result["eight_at_once_over_pairs"] = one / pairs;
-    result["eight_at_once_over_fresh_pairs"] = one / fresh;
-    result["eight_folded_over_pairs"] = fold / pairs;
-    result["eight_folded_over_fresh_pairs"] = fold / fresh;
+    result["eight_of_random_cuts"] = against_pairs("of random cuts", f, runs);
+    // As those of neighboring vertices are.
+    std::vector<Function> similar;
+    std::vector<std::uint32_t> common;
+    for (const Piece& p : f[0].pieces()) common.push_back(p.node());
+    for (int i = 0; i < count; ++i) similar.push_back(random_function(tree, random, size + 16, common));
+    result["eight_of_similar_cuts"] = against_pairs("of similar cuts", similar, runs);
 
     // Bounds of errors.
     std::vector<Function> means;
