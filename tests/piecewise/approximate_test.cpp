@@ -156,6 +156,26 @@ TEST(OrderedApproximation, ReachesATotalErrorWithTheFewestLargestSplits) {
     });
 }
 
+// Nearly all of the error is gone after one split; sums that only subtract would lose what is left.
+TEST(OrderedApproximation, LosesNoSmallErrorBesideALargeOne) {
+    Random random(11);
+    const ClusterTree tree = random_tree(random, 500);
+    const auto middle = static_cast<std::uint32_t>(tree.leaf_count(tree.left(tree.root())));
+    std::vector<double> values;
+    for (std::uint32_t i = 0; i < 500; ++i) values.push_back((i < middle ? 1e7 : -1e7) + random.between(-1e-3, 1e-3));
+    const auto of = moments(tree, [&](std::uint32_t i) { return values[i]; });
+    for (const double most : {1e-2, 3e-3, 1e-3}) {
+        OrderedApproximation<double> ordered, smaller;
+        ordered.start(tree, of);
+        ordered.refine_to_total_error(most);
+        EXPECT_LE(ordered.total_error(), most);
+        EXPECT_LT(ordered.size(), 500u);
+        smaller.start(tree, of);
+        smaller.refine_by_error(0.0, ordered.size() - 1);
+        EXPECT_GT(smaller.total_error(), most) << "one piece fewer would not do";
+    }
+}
+
 TEST(OrderedApproximation, OfALimitedSizeIsAQueuesAndSequencesNest) {
     for_subjects([](const Subject& s) {
         if (!s.tree.is_binary()) return;

@@ -75,6 +75,22 @@ TEST(Compact, KeepsNodesAndValuesWithinItsError) {
     }
 }
 
+// Where sums in double would lose one beside the other.
+TEST(Compact, KeepsTheLeastAndTheLargestValueExactly) {
+    Random random(10);
+    const ClusterTree tree = random_tree(random, 2);
+    for (const auto& [a, b] : {std::pair{-1e30f, 1.25f}, std::pair{0.1f, 0.3f}, std::pair{3e38f, -3e38f}}) {
+        for (const ValueBits bits : {ValueBits::eight, ValueBits::sixteen, ValueBits::full}) {
+            Function f, found;
+            assign<float>(tree, std::vector<std::uint32_t>{0, 1}, std::vector<float>{a, b}, f);
+            Bytes bytes;
+            encode(f, {bits, false}, bytes);
+            decode(bytes, {bits, false}, tree, found);
+            EXPECT_EQ(at_leaves(found), at_leaves(f));
+        }
+    }
+}
+
 // Deviations of what was rounded once more still bound the function.
 TEST(Compact, DeviationsHoldForStoredValues) {
     Random random(2);

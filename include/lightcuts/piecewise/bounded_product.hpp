@@ -55,7 +55,10 @@ class Spread {
 public:
     /// A piece of value v. `deviation`: of f from v.
     void add(double leaves, double v, const Deviation& deviation) {
-        if (pieces_ == 0.0) shift_ = v;
+        if (pieces_ == 0.0) {
+            shift_ = v;
+            first_norm_ = static_cast<double>(deviation.norm);
+        }
         const double d = v - shift_, offset = static_cast<double>(deviation.offset);
         pieces_ += 1.0;
         leaves_ += leaves;
@@ -73,14 +76,12 @@ public:
     double center() const { return pieces_ > 1.0 ? shift_ + first_ / leaves_ : shift_; }
     /// At least sqrt(sum over the leaves of (f - center)^2).
     double norm() const {
+        if (pieces_ == 1.0) return first_norm_;
         const double inflation = sum_inflation(4.0 * pieces_);
         // Of the pieces' values. d and the sums are rounded, by amounts that are small beside `second_` and the values.
         const double slack = 4.0 * unit_roundoff * largest_;
-        double between = 0.0;
-        if (pieces_ > 1.0) {
-            between = (std::max)(0.0, second_ - first_ * first_ / leaves_) + (inflation - 1.0) * 4.0 * second_;
-            between = square(std::sqrt(between) + slack * std::sqrt(leaves_)) * inflation;
-        }
+        double between = (std::max)(0.0, second_ - first_ * first_ / leaves_) + (inflation - 1.0) * 4.0 * second_;
+        between = square(std::sqrt(between) + slack * std::sqrt(leaves_)) * inflation;
         // What is left within a piece has a mean that only rounding keeps from zero.
         return std::sqrt((within_ + between + 2.0 * std::sqrt(between * squared_offsets_)) * inflation) * inflation;
     }
@@ -90,7 +91,7 @@ public:
 private:
     static double square(double x) { return x * x; }
 
-    double pieces_ = 0.0, leaves_ = 0.0, shift_ = 0.0, largest_ = 0.0;
+    double pieces_ = 0.0, leaves_ = 0.0, shift_ = 0.0, first_norm_ = 0.0, largest_ = 0.0;
     double first_ = 0.0, second_ = 0.0;  ///< sums over the leaves of v - shift, and of its square
     double within_ = 0.0;                ///< sum of the squared deviations
     double offsets_ = 0.0, squared_offsets_ = 0.0;
@@ -132,7 +133,9 @@ public:
     double leaves(std::uint32_t) const {
         return pieces_[at_].leaf_end() - (at_ == 0 ? 0 : pieces_[at_ - 1].leaf_end());
     }
-    bool ends_at(std::uint32_t end) const { return pieces_[at_].leaf_end() == end; }
+    /// Where the current piece ends.
+    std::uint32_t end() const { return pieces_[at_].leaf_end(); }
+    bool ends_at(std::uint32_t leaf) const { return end() == leaf; }
     void advance() {
         if (at_ + 1 < pieces_.size()) ++at_;
     }
@@ -152,6 +155,8 @@ public:
     double value(std::uint32_t node) const { return f_.mean(node); }
     Deviation deviation(std::uint32_t node) const { return f_.deviation(node); }
     double leaves(std::uint32_t merged_leaves) const { return merged_leaves; }
+    /// Before any other: never the coarsest.
+    std::uint32_t end() const { return 0; }
     bool ends_at(std::uint32_t) const { return true; }
     void advance() {}
 
@@ -262,32 +267,40 @@ BoundedSum bounded_product(const V& v, const F& f, const G& g) {
     auto c = detail::cursor_of(g);
     if constexpr (DeviatingFunction<F>) detail::check_leaf_counts(a.leaf_count(), detail::leaf_count_of(f));
     if constexpr (DeviatingFunction<G>) detail::check_leaf_counts(a.leaf_count(), detail::leaf_count_of(g));
-    detail::Spread of_v, of_f, of_g;  // over the current node of the coarsest cut
-    detail::PairError vf, vg, fg;
-    double error_vf = 0.0, error_vg = 0.0, error_fg = 0.0;
+    // Over the current node of the coarsest cut: which that is, the three functions there, and the other two together.
+    enum class Coarsest { visibility, second, third };
+    const auto find_coarsest = [&] {
+        if (a.end() >= b.end() && a.end() >= c.end()) return Coarsest::visibility;
+        return b.end() >= c.end() ? Coarsest::second : Coarsest::third;
+    };
+    Coarsest coarsest = find_coarsest();
+    detail::Spread of_v, of_f, of_g;
+    detail::PairError others;
+    double others_error = 0.0;
     const auto close = [&] {
         using detail::times;
         const double mean = of_v.center();
         const double x = std::abs(mean), y = std::abs(of_f.center()), z = std::abs(of_g.center());
         const double s_v = of_v.norm(), s_f = of_f.norm(), s_g = of_g.norm();
         const double away = (std::min)((std::max)(x, std::abs(1.0 - mean)) * (1.0 + 8.0 * unit_roundoff),
-                                       s_v);  // >= |v - x|
+                                       s_v);               // >= |v - x|
+        const double largest = (std::min)(1.0, x + away);  // >= |v|
         double bound = 0.0;
-        // A function of one piece there is constant. Any will do; of several the first.
-        if (of_v.pieces() == 1.0) {
-            bound = times(x, error_fg) + times(y, s_v, s_g) + times(z, s_v, s_f) + times(away, s_f, s_g);
-        } else {
-            const double largest = (std::min)(1.0, x + away);
-            bound = times(largest, s_f, s_g);
-            bound += of_f.pieces() == 1.0 ? times(z, s_v, s_f) + times(y, error_vg)
-                                          : times(y, s_v, s_g) + times(z, error_vf);
+        switch (coarsest) {
+            case Coarsest::visibility:
+                bound = times(x, others_error) + times(y, s_v, s_g) + times(z, s_v, s_f) + times(away, s_f, s_g);
+                break;
+            case Coarsest::second:
+                bound = times(largest, s_f, s_g) + times(z, s_v, s_f) + times(y, others_error);
+                break;
+            case Coarsest::third: bound = times(largest, s_f, s_g) + times(y, s_v, s_g) + times(z, others_error); break;
         }
         bound += 2.0 * (times(y, z, of_v.offset()) + times(x, z, of_f.offset()) + times(x, y, of_g.offset()));
         sum.add_error(bound * (1.0 + 64.0 * unit_roundoff));
         of_v.clear();
         of_f.clear();
         of_g.clear();
-        error_vf = error_vg = error_fg = 0.0;
+        others_error = 0.0;
     };
     std::uint32_t first = 0;
     while (first < a.leaf_count()) {
@@ -296,20 +309,29 @@ BoundedSum bounded_product(const V& v, const F& f, const G& g) {
         const std::uint32_t leaves = end - first;
         sum.add(static_cast<double>(leaves) * a.value(node) * b.value(node) * c.value(node));
         const bool a_ends = a.ends_at(end), b_ends = b.ends_at(end), c_ends = c.ends_at(end);
-        const auto pass = [&](auto& cursor, detail::Spread& whole, detail::Spread& one, detail::Spread& other) {
+        const auto pass = [&](auto& cursor, detail::Spread& own, detail::Spread* among_others) {
             const double value = cursor.value(node), n = cursor.leaves(leaves);
             const Deviation deviation = cursor.deviation(node);
-            for (detail::Spread* spread : {&whole, &one, &other}) spread->add(n, value, deviation);
+            own.add(n, value, deviation);
+            if (among_others != nullptr) among_others->add(n, value, deviation);
             cursor.advance();
         };
-        if (a_ends) pass(a, of_v, vf.f, vg.f);
-        if (b_ends) pass(b, of_f, vf.g, fg.f);
-        if (c_ends) pass(c, of_g, vg.g, fg.g);
-        constexpr double up = 1.0 + 2.0 * unit_roundoff;
-        if (a_ends && b_ends) error_vf = (error_vf + vf.close()) * up;
-        if (a_ends && c_ends) error_vg = (error_vg + vg.close()) * up;
-        if (b_ends && c_ends) error_fg = (error_fg + fg.close()) * up;
-        if (a_ends && b_ends && c_ends) close();
+        // The first and the second of the other two.
+        if (a_ends) pass(a, of_v, coarsest == Coarsest::visibility ? nullptr : &others.f);
+        if (b_ends) {
+            pass(b, of_f,
+                 coarsest == Coarsest::second       ? nullptr
+                 : coarsest == Coarsest::visibility ? &others.f
+                                                    : &others.g);
+        }
+        if (c_ends) pass(c, of_g, coarsest == Coarsest::third ? nullptr : &others.g);
+        const bool others_end = (a_ends || coarsest == Coarsest::visibility) &&
+                                (b_ends || coarsest == Coarsest::second) && (c_ends || coarsest == Coarsest::third);
+        if (others_end) others_error = (others_error + others.close()) * (1.0 + 2.0 * unit_roundoff);
+        if (a_ends && b_ends && c_ends) {
+            close();
+            coarsest = find_coarsest();
+        }
         first = end;
     }
     return sum.result();

@@ -41,7 +41,6 @@ inline void write_bytes(const std::filesystem::path& path, std::span<const std::
         std::filesystem::remove(temporary, ignored);
         LIGHTCUTS_THROW(invalid_input(path.string() + ": " + problem));
     };
-    if (std::filesystem::is_directory(path, error)) refuse("is a folder");
     {
         std::ofstream file(temporary, std::ios::binary);
         if (!file) refuse("cannot be created; is its folder there, and may you write to it?");
