@@ -16,7 +16,7 @@ namespace lightcuts {
 /// order in which the items come.
 ///
 /// A splitter whose cuts are too uneven does not make a tree deep: below a depth of about 2 log2 N, `LongestAxis`
-/// takes over. Models: `Binned`, `LongestAxis`.
+/// takes over. Models: `Binned`, `LongestAxis`, `TwoCenters`, `DataDriven`.
 template <class S, std::size_t Dimensions>
 concept Splitter = requires(const S& splitter, const BuildRange<Dimensions>& range, const NormalizedSpace& space) {
     { splitter.split(range, space) } -> std::same_as<Split<Dimensions>>;
