@@ -1,6 +1,8 @@
 #include <lightcuts/piecewise/bounded_product.hpp>
 
 #include <cmath>
+#include <cstdint>
+#include <type_traits>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -82,6 +84,105 @@ TEST(BoundedProduct, OfThreeFactorsHolds) {
         expect_bound(bounded_product(v.cut, WholeTree(f.of), WholeTree(g.of)), exact, &tightest);
     }
     EXPECT_GT(tightest, 0.9L);
+}
+
+/// A function of doubles from the least there is to the largest that has moments, as a cut of V.
+template <class V>
+struct WideFactor {
+    std::vector<double> values;
+    std::vector<Moments<1>> of;
+    PiecewiseConstant<V> cut;
+
+    WideFactor(Case& c, bool is_visibility) {
+        const bool is_fixed = c.random.chance(0.3);
+        const double most = is_visibility ? 0.0 : std::is_same_v<V, float> ? 37.0 : 150.0;
+        const double fixed = c.random.between(-324.0, most);
+        for (std::size_t i = 0; i < c.tree.item_count(); ++i) {
+            const double magnitude = is_fixed ? std::pow(10.0, fixed) * c.random.unit()
+                                              : c.random.decades(-324.0, most);
+            const double sign = !is_visibility && c.random.chance(0.5) ? -1.0 : 1.0;
+            values.push_back(c.random.chance(0.2) ? 0.0 : sign * magnitude);
+        }
+        of = moments(c.tree, [this](std::uint32_t i) { return values[i]; });
+        cut = means_on<V>(c.tree, of, random_cut(c.random, c.tree, c.keep()));
+    }
+};
+
+template <class V, class F, class G>
+void expect_bounds_of_wide_factors(std::uint64_t seed) {
+    Random random(seed);
+    for (int trial = 0; trial < 10000; ++trial) {
+        Case c(random, trial);
+        const WideFactor<V> v(c, true);
+        const WideFactor<F> f(c, false);
+        const WideFactor<G> g(c, false);
+        long double two = 0, three = 0, magnitude = 0;
+        for (std::size_t i = 0; i < v.values.size(); ++i) {
+            const long double fg = static_cast<long double>(f.values[i]) * static_cast<long double>(g.values[i]);
+            two += fg;
+            three += static_cast<long double>(v.values[i]) * fg;
+            magnitude += std::abs(fg);
+        }
+        const auto expect = [&](const BoundedSum& found, long double exact) {
+            // The exact sum is rounded, too.
+            EXPECT_LE(std::abs(static_cast<long double>(found.value) - exact),
+                      static_cast<long double>(found.error_bound) + 1e-17L * magnitude)
+                << trial << " " << found.value << " " << exact;
+        };
+        expect(bounded_product(f.cut, g.cut), two);
+        expect(bounded_product(f.cut, WholeTree(g.of)), two);
+        expect(bounded_product(v.cut, f.cut, g.cut), three);
+        expect(bounded_product(v.cut, f.cut, WholeTree(g.of)), three);
+        expect(bounded_product(v.cut, WholeTree(f.of), WholeTree(g.of)), three);
+    }
+}
+
+TEST(BoundedProduct, OfDoublesFromDenormalToHugeHolds) {
+    expect_bounds_of_wide_factors<double, double, double>(4);
+    expect_bounds_of_wide_factors<float, double, float>(5);
+    expect_bounds_of_wide_factors<double, float, double>(6);
+}
+
+using Doubles = std::vector<double>;
+
+template <class V>
+PiecewiseConstant<V> cut_of(const ClusterTree& tree, const Doubles& values, const std::vector<std::uint32_t>& nodes) {
+    return means_on<V>(tree, moments(tree, [&](std::uint32_t i) { return values[i]; }), nodes);
+}
+
+// What cannot be told from zero in the product, or whose square cannot, is no error of zero.
+TEST(BoundedProduct, CountsWhatUnderflows) {
+    const ClusterTree tree({ClusterTree::leaf_word(0), ClusterTree::leaf_word(1), 0});
+    const std::vector<std::uint32_t> root{2}, leaves{0, 1};
+    const BoundedSum deviation = bounded_product(cut_of<double>(tree, {1, 0}, root),
+                                                 cut_of<double>(tree, {0, 1e-200}, leaves));
+    EXPECT_GE(deviation.error_bound, std::abs(deviation.value - 0.0));
+    EXPECT_GT(deviation.value, 0.0);
+    const BoundedSum rounded = bounded_product(cut_of<float>(tree, {1e-200, 2e-200}, leaves),
+                                               cut_of<float>(tree, {1, -1}, root));
+    EXPECT_GE(rounded.error_bound, std::abs(rounded.value + 1e-200));
+    const auto tiny = cut_of<double>(tree, {1e-200, 1e-200}, leaves);
+    EXPECT_GT(bounded_product(tiny, tiny).error_bound, 0.0) << "the exact sum is 2e-400";
+    EXPECT_GT(bounded_product(tiny, tiny, tiny).error_bound, 0.0);
+    const auto huge = cut_of<double>(tree, {1e150, 1e150}, leaves);
+    const BoundedSum three = bounded_product(tiny, tiny, huge);
+    EXPECT_GE(three.error_bound + 1e-262, std::abs(three.value - 2e-250));
+}
+
+TEST(BoundedProduct, CountsWhatOverflows) {
+    constexpr std::uint32_t count = 16384;
+    std::vector<std::uint32_t> words, leaves;
+    Doubles a, b;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        words.push_back(ClusterTree::leaf_word(i));
+        leaves.push_back(i);
+        a.push_back(i % 2 == 0 ? 1.0 : 0.0);
+        b.push_back(i % 2 == 0 ? -1e150 : 1e150);
+    }
+    words.push_back(0);
+    const ClusterTree star(words);
+    const BoundedSum found = bounded_product(cut_of<double>(star, a, {count}), cut_of<double>(star, b, leaves));
+    EXPECT_GE(found.error_bound, std::abs(found.value + 1e150 * (count / 2)));
 }
 
 // All leaves kept: nothing but rounding is left.
@@ -173,6 +274,24 @@ TEST(BoundedProduct, RefusesWhatHasNoDeviations) {
     EXPECT_THROW(bounded_product(f.cut, bare), invalid_input);
     EXPECT_THROW(bounded_product(f.cut, g.cut), invalid_input);
     EXPECT_THROW(bounded_product(f.cut, f.cut, g.cut), invalid_input);
+}
+
+TEST(BoundedProduct, RefusesFunctionsOfOtherTrees) {
+    Random random(9);
+    const ClusterTree tree = random_tree(random, 10), other = random_tree(random, 11);
+    const Factor f(random, tree, Kind::uniform, 0.3), g(random, other, Kind::uniform, 0.3);
+    const Function none;
+    const std::vector<Moments<1>> no_moments;
+    EXPECT_EQ(WholeTree(f.of).leaf_count(), 10u);
+    EXPECT_THROW(bounded_product(none, f.cut), invalid_input);
+    EXPECT_THROW(bounded_product(f.cut, none), invalid_input);
+    EXPECT_THROW(bounded_product(none, f.cut, f.cut), invalid_input);
+    EXPECT_THROW(bounded_product(none, WholeTree(f.of)), invalid_input);
+    EXPECT_THROW(bounded_product(f.cut, WholeTree(g.of)), invalid_input);
+    EXPECT_THROW(bounded_product(f.cut, WholeTree(no_moments)), invalid_input);
+    EXPECT_THROW(bounded_product(f.cut, f.cut, WholeTree(g.of)), invalid_input);
+    EXPECT_EQ(bounded_product(none, none).error_bound, 0.0);
+    EXPECT_EQ(bounded_product(none, WholeTree(no_moments), none).value, 0.0);
 }
 
 }  // namespace

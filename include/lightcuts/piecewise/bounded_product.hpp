@@ -8,6 +8,7 @@
 #include <limits>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "../core/invalid_input.hpp"
@@ -34,6 +35,10 @@ public:
         : moments_(&moments), channel_(channel) {}
     WholeTree(std::vector<Moments<Channels>>&&, int = 0) = delete;
 
+    /// Number of leaves of the tree.
+    std::uint32_t leaf_count() const {
+        return moments_->empty() ? 0 : static_cast<std::uint32_t>(moments_->back().leaves);
+    }
     double mean(std::uint32_t node) const { return (*moments_)[node].mean[static_cast<std::size_t>(channel_)]; }
     Deviation deviation(std::uint32_t node) const { return (*moments_)[node].deviation_from(mean(node), channel_); }
 
@@ -44,10 +49,17 @@ private:
 
 namespace detail {
 
-/// The product of bounds, where 0 x infinity = 0.
-template <class... B>
-double times(B... bounds) {
-    return ((bounds == 0.0) || ...) ? 0.0 : (bounds * ...);
+/// The product of bounds, where 0 x infinity = 0, and which is zero only if one of them is: what underflows is less
+/// than the floor.
+constexpr double product_floor = 0x1p-960;
+inline double times(double a, double b) { return a == 0.0 || b == 0.0 ? 0.0 : larger(a * b, product_floor); }
+inline double times(double a, double b, double c) {
+    if (a == 0.0 || b == 0.0 || c == 0.0) return 0.0;
+    // The least by the largest first: where that underflows, the third is too small to bring it back above the floor.
+    if (a < b) std::swap(a, b);
+    if (b < c) std::swap(b, c);
+    if (a < b) std::swap(a, b);
+    return larger(a * c * b, product_floor);
 }
 
 /// What is known of a function f over neighboring leaves from the pieces that stand for it there.
@@ -62,6 +74,7 @@ public:
         const double d = v - shift_, offset = static_cast<double>(deviation.offset);
         pieces_ += 1.0;
         leaves_ += leaves;
+        differs_ |= d != 0.0;
         first_ += leaves * d;
         second_ += leaves * d * d;
         within_ += static_cast<double>(deviation.norm) * static_cast<double>(deviation.norm);
@@ -80,21 +93,24 @@ public:
         const double inflation = sum_inflation(4.0 * pieces_);
         // Of the pieces' values. d and the sums are rounded, by amounts that are small beside `second_` and the values.
         const double slack = 4.0 * unit_roundoff * largest_;
-        double between = (std::max)(0.0, second_ - first_ * first_ / leaves_) + (inflation - 1.0) * 4.0 * second_;
-        between = square(std::sqrt(between) + slack * std::sqrt(leaves_)) * inflation;
+        double between = second_ - first_ / leaves_ * first_;
+        if (!std::isfinite(between)) between = second_;
+        between = (std::max)(0.0, between) + (inflation - 1.0) * 4.0 * second_;
+        // Squares of small differences vanish.
+        const double vanished = differs_ ? 0x1p-500 : 0.0;
+        const double root = (std::sqrt(between) + (slack + vanished) * std::sqrt(leaves_)) * inflation;
         // What is left within a piece has a mean that only rounding keeps from zero.
-        return std::sqrt((within_ + between + 2.0 * std::sqrt(between * squared_offsets_)) * inflation) * inflation;
+        return std::sqrt((within_ + root * root + 2.0 * root * std::sqrt(squared_offsets_)) * inflation) * inflation;
     }
     /// At least |sum over the leaves of (f - value of the piece)|.
     double offset() const { return offsets_ * sum_inflation(4.0 * pieces_); }
 
 private:
-    static double square(double x) { return x * x; }
-
     double pieces_ = 0.0, leaves_ = 0.0, shift_ = 0.0, first_norm_ = 0.0, largest_ = 0.0;
     double first_ = 0.0, second_ = 0.0;  ///< sums over the leaves of v - shift, and of its square
     double within_ = 0.0;                ///< sum of the squared deviations
     double offsets_ = 0.0, squared_offsets_ = 0.0;
+    bool differs_ = false;  ///< the values, from each other
 };
 
 /// The sum of products over leaves where at least one of two factors is constant on each run of leaves that `close`
@@ -125,7 +141,6 @@ public:
             LIGHTCUTS_THROW(invalid_input("bounded_product: a function has no deviations; approximate it with them"));
         }
     }
-    std::uint32_t leaf_count() const { return pieces_.back().leaf_end(); }
     std::uint64_t key() const { return pieces_[at_].key(); }
     /// The value on `node`, the innermost of all.
     double value(std::uint32_t) const { return static_cast<double>(f_.values()[at_]); }
@@ -176,22 +191,31 @@ TreeCursor<Channels> cursor_of(const WholeTree<Channels>& f) {
 /// Sums up products and the rounding of doing so.
 class ProductSum {
 public:
-    void add(double term) {
-        sum_ += term;
-        magnitude_ += std::abs(term);
-        terms_ += 1.0;
+    /// leaves x a x b.
+    void add(double leaves, double a, double b) { add_term(a != 0.0 && b != 0.0, leaves * a * b); }
+    /// leaves x v x a x b, |v| <= 1: last, so that it makes nothing of what underflowed before.
+    void add(double leaves, double v, double a, double b) {
+        add_term(v != 0.0 && a != 0.0 && b != 0.0, a * b * v * leaves);
     }
     void add_error(double bound) { error_ += bound; }
     BoundedSum result() const {
         // Each term has up to three products.
         const double rounding = magnitude_ * 2.0 * (terms_ + 8.0) * unit_roundoff;
-        // What underflows is less than the least number each.
-        const double underflow = terms_ > 0.0 && (error_ > 0.0 || magnitude_ > 0.0) ? terms_ * 0x1p-1000 : 0.0;
+        // What underflows is less than the least number, times the leaves, each.
+        const double underflow = may_underflow_ ? terms_ * 0x1p-1000 : 0.0;
         return {sum_, error_ * sum_inflation(terms_) + rounding + underflow};
     }
 
 private:
+    void add_term(bool is_something, double term) {
+        sum_ += term;
+        magnitude_ += std::abs(term);
+        terms_ += 1.0;
+        may_underflow_ |= is_something;
+    }
+
     double sum_ = 0.0, magnitude_ = 0.0, error_ = 0.0, terms_ = 0.0;
+    bool may_underflow_ = false;
 };
 
 template <class F>
@@ -199,8 +223,18 @@ constexpr bool is_whole_tree = false;
 template <int Channels>
 constexpr bool is_whole_tree<WholeTree<Channels>> = true;
 
-inline void check_leaf_counts(std::uint32_t a, std::uint32_t b) {
-    if (a != b) refuse_merge(a, b);
+template <int Channels>
+std::uint32_t leaf_count_of(const WholeTree<Channels>& f) {
+    return f.leaf_count();
+}
+/// throws: invalid_input if the functions have different numbers of leaves, else returns it.
+template <class F, class... G>
+std::uint32_t common_leaf_count(const F& f, const G&... g) {
+    const std::uint32_t leaves = leaf_count_of(f);
+    for (const std::uint32_t other : {leaf_count_of(g)...}) {
+        if (other != leaves) refuse_merge(leaves, other);
+    }
+    return leaves;
 }
 
 }  // namespace detail
@@ -217,22 +251,22 @@ concept BoundedFactor = DeviatingFunction<F> || detail::is_whole_tree<F>;
 /// S_g(K)^2 <= sum of S_g(m)^2 + |m| (g_m - mean over K)^2. [Cut merging 2008, Eq. 8] has the deviations over the
 /// nodes of the union instead, which is no bound where the value of a function comes from a node above. With a whole
 /// tree every node of the other's cut is such a K, and its own deviation is exact.
-/// pre: functions of one tree. throws: invalid_input if a function has no deviations, or they have different numbers of
-/// leaves. cost: O(pieces); allocates nothing.
+/// pre: functions of one tree. throws: invalid_input if they have different numbers of leaves, or one has no
+/// deviations. cost: O(pieces); allocates nothing.
 template <DeviatingFunction F, BoundedFactor G>
 BoundedSum bounded_product(const F& f, const G& g) {
+    const std::uint32_t leaf_count = detail::common_leaf_count(f, g);
+    if (leaf_count == 0) return {};
     detail::ProductSum sum;
-    if (f.pieces().empty()) return {};
     auto a = detail::cursor_of(f);
     auto b = detail::cursor_of(g);
-    if constexpr (DeviatingFunction<G>) detail::check_leaf_counts(a.leaf_count(), detail::leaf_count_of(g));
     detail::PairError pair;
     std::uint32_t first = 0;
-    while (first < a.leaf_count()) {
+    while (first < leaf_count) {
         const std::uint64_t key = detail::smaller_key(a.key(), b.key());
         const auto node = static_cast<std::uint32_t>(key), end = static_cast<std::uint32_t>(key >> 32);
         const std::uint32_t leaves = end - first;
-        sum.add(static_cast<double>(leaves) * a.value(node) * b.value(node));
+        sum.add(leaves, a.value(node), b.value(node));
         const bool a_ends = a.ends_at(end), b_ends = b.ends_at(end);
         if (a_ends) {
             pair.f.add(a.leaves(leaves), a.value(node), a.deviation(node));
@@ -260,13 +294,12 @@ BoundedSum bounded_product(const F& f, const G& g) {
 /// pre: functions of one tree, 0 <= v <= 1. throws: as of two. cost: O(pieces); allocates nothing.
 template <DeviatingFunction V, BoundedFactor F, BoundedFactor G>
 BoundedSum bounded_product(const V& v, const F& f, const G& g) {
+    const std::uint32_t leaf_count = detail::common_leaf_count(v, f, g);
+    if (leaf_count == 0) return {};
     detail::ProductSum sum;
-    if (v.pieces().empty()) return {};
     auto a = detail::cursor_of(v);
     auto b = detail::cursor_of(f);
     auto c = detail::cursor_of(g);
-    if constexpr (DeviatingFunction<F>) detail::check_leaf_counts(a.leaf_count(), detail::leaf_count_of(f));
-    if constexpr (DeviatingFunction<G>) detail::check_leaf_counts(a.leaf_count(), detail::leaf_count_of(g));
     // Over the current node of the coarsest cut: which that is, the three functions there, and the other two together.
     enum class Coarsest { visibility, second, third };
     const auto find_coarsest = [&] {
@@ -303,11 +336,11 @@ BoundedSum bounded_product(const V& v, const F& f, const G& g) {
         others_error = 0.0;
     };
     std::uint32_t first = 0;
-    while (first < a.leaf_count()) {
+    while (first < leaf_count) {
         const std::uint64_t key = detail::smaller_key(a.key(), detail::smaller_key(b.key(), c.key()));
         const auto node = static_cast<std::uint32_t>(key), end = static_cast<std::uint32_t>(key >> 32);
         const std::uint32_t leaves = end - first;
-        sum.add(static_cast<double>(leaves) * a.value(node) * b.value(node) * c.value(node));
+        sum.add(leaves, a.value(node), b.value(node), c.value(node));
         const bool a_ends = a.ends_at(end), b_ends = b.ends_at(end), c_ends = c.ends_at(end);
         const auto pass = [&](auto& cursor, detail::Spread& own, detail::Spread* among_others) {
             const double value = cursor.value(node), n = cursor.leaves(leaves);

@@ -21,8 +21,11 @@ constexpr double sum_inflation(double terms) { return 1.0 + (terms + 16.0) * (2.
 /// about the exact mean is at most `squared_deviation`.
 inline Deviation deviation_from(double value, double mean, double mean_error, double squared_deviation, double leaves) {
     const double offset = (std::abs(value - mean) + mean_error) * (1.0 + 4.0 * unit_roundoff);
-    const double norm = std::sqrt(squared_deviation + leaves * offset * offset) * (1.0 + 8.0 * unit_roundoff);
-    return {round_up(norm), round_up(offset)};
+    double norm = std::sqrt(squared_deviation + leaves * offset * offset);
+    // The square of a tiny offset underflows.
+    const double least = std::sqrt(leaves) * offset;
+    if (norm < least) norm = least;
+    return {round_up(norm * (1.0 + 8.0 * unit_roundoff)), round_up(offset)};
 }
 
 }  // namespace detail
