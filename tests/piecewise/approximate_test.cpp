@@ -349,5 +349,45 @@ TEST(Approximate, OfAnEmptyTreeIsEmpty) {
     EXPECT_NO_THROW(validate(tree, f));
 }
 
+// A lowest node of 300 children in a binary tree, the worst of all: until there is room for them, others are refined.
+TEST(OrderedApproximation, PassesOverWhatIsTooWide) {
+    std::vector<std::uint32_t> words;
+    std::uint32_t items = 0;
+    const auto build = [&](const auto& self, int depth) -> void {
+        const auto first = static_cast<std::uint32_t>(words.size());
+        if (depth > 0) {
+            self(self, depth - 1);
+            self(self, depth - 1);
+        } else {
+            const std::uint32_t leaves = items == 0 ? 300 : 1;
+            for (std::uint32_t i = 0; i < leaves; ++i) words.push_back(ClusterTree::leaf_word(items++));
+            if (leaves == 1) return;
+        }
+        words.push_back(first);
+    };
+    build(build, 12);
+    const ClusterTree tree(words);
+    Random random(31);
+    const auto values = random_function(random, items, Kind::uniform);
+    const auto of = moments(tree, [&](std::uint32_t i) { return values[i]; });
+    OrderedApproximation<float> ordered;
+    for (const std::size_t most : {256u, 311u, 1000u, 4000u}) {
+        ordered.start(tree, of);
+        EXPECT_EQ(ordered.refine_by_error(0.0, most), StopReason::limit);
+        EXPECT_EQ(ordered.size(), most);
+        Function f;
+        ordered.store(f);
+        ASSERT_NO_THROW(validate(tree, f));
+    }
+    // What was passed over is taken when there is room for it.
+    ordered.start(tree, of);
+    ordered.refine_by_error(0.0, 256);
+    EXPECT_EQ(ordered.refine_by_error(0.0), StopReason::converged);
+    EXPECT_EQ(ordered.size(), items);
+    // Good as it is, it is not what ends the refinement.
+    ordered.start(tree, of);
+    EXPECT_EQ(ordered.refine_by_error(6.0, 256), StopReason::converged);
+}
+
 }  // namespace
 }  // namespace lightcuts::test

@@ -34,8 +34,9 @@ struct RefinementCandidate {
 /// - `precedes(a, b)`: a total order that breaks ties of priority, infinite ones above all.
 ///
 /// Optional:
-/// - `static constexpr std::size_t most_children`, or a function `most_children()` where only the problem knows: 2 if
-///   not stated.
+/// - `static constexpr std::size_t most_children`: 2 if not stated. Or, of a problem of fixed priorities,
+///   `children(node)`, 2 or more: how many `split` appends. Room then is counted node by node, and a node of more
+///   children than there is room for is passed over, that others may be refined.
 /// - `static constexpr bool fixed_priorities = true`: `priority` of a node never changes, though the threshold may. The
 ///   frontier then is a heap, and a split costs O(log n) whatever the rounds.
 /// - `is_final(node)`: true if the node can never be refined; the engine then looks at it no more.
@@ -67,7 +68,7 @@ concept FixedPriorityProblem = RefinementProblem<P> && bool(P::fixed_priorities)
 /// Why a refinement ended.
 enum class StopReason : std::uint8_t {
     converged,   ///< no node is above the threshold
-    limit,       ///< the maximum number of nodes is reached
+    limit,       ///< the maximum number of nodes is reached, or a split of any node would go beyond it
     unfinished,  ///< the caller stopped early, for instance on a time budget
 };
 
@@ -96,6 +97,7 @@ public:
         heap_.clear();
         chosen_.clear();
         holes_.clear();
+        passed_over_.clear();
         absorbed_ = 0;
         stop_ = StopReason::unfinished;
         problem.roots(nodes_);
@@ -118,23 +120,35 @@ public:
         const auto visit = [this](auto&& f) { this->for_each(f); };
         if constexpr (requires { problem.observe(visit); }) problem.observe(visit);
         const std::size_t room = options.max_nodes > size() ? options.max_nodes - size() : 0;
-        const std::size_t children = most_children(problem);
-        const std::size_t most_splits = room / (children - 1);
+        // A node takes the place of its parent, the others take room.
+        const std::size_t most_splits = room / (children_a_split<P> - 1);
         // At the limit all that is above the threshold is tightened once more, and then no more.
         const double fraction = most_splits == 0 ? 0.0 : (std::min)(options.round_fraction, 1.0);
-        while (!choose(problem, fraction)) {
-            if constexpr (requires { problem.revise(visit); }) {
-                if (problem.revise(visit)) continue;
+        std::size_t children = 0;  // of the chosen nodes at most
+        do {
+            while (!choose(problem, fraction)) {
+                if constexpr (requires { problem.revise(visit); }) {
+                    if (problem.revise(visit)) continue;
+                }
+                stop_ = StopReason::converged;
+                if constexpr (counts_children<P>) {
+                    if (return_passed_over(problem)) stop_ = StopReason::limit;
+                }
+                return false;
             }
-            stop_ = StopReason::converged;
-            return false;
-        }
-        keep_largest(problem, most_splits);
+            if constexpr (counts_children<P>) {
+                children = keep_what_fits(problem, room);
+            } else {
+                keep_largest(problem, most_splits);
+                children = children_a_split<P> * chosen_.size();
+            }
+        } while (counts_children<P> && chosen_.empty() && room > 0);
         if (chosen_.empty()) {
+            if constexpr (counts_children<P>) return_passed_over(problem);
             stop_ = StopReason::limit;
             return false;
         }
-        nodes_.reserve(nodes_.size() + children * chosen_.size());
+        nodes_.reserve(nodes_.size() + children);
         for (const RefinementCandidate& candidate : chosen_) {
             [[maybe_unused]] const std::size_t before = nodes_.size();
             problem.split(std::as_const(nodes_)[candidate.at], nodes_);
@@ -294,17 +308,65 @@ private:
     template <class P>
     void keep_largest(const P& problem, std::size_t count) {
         if (chosen_.size() > count) {
-            const auto larger = [&](const RefinementCandidate& a, const RefinementCandidate& b) {
-                if (a.priority != b.priority) return a.priority > b.priority;
-                return static_cast<bool>(problem.precedes(nodes_[a.at], nodes_[b.at]));
-            };
             const auto middle = chosen_.begin() + static_cast<std::ptrdiff_t>(count);
-            std::nth_element(chosen_.begin(), middle, chosen_.end(), larger);
+            std::nth_element(chosen_.begin(), middle, chosen_.end(), is_larger(problem));
             if (in_heap_) {
                 for (auto c = middle; c != chosen_.end(); ++c) push(problem, c->at);
             }
             chosen_.erase(middle, chosen_.end());
         }
+        sort_by_place();
+    }
+
+    /// Keeps the candidates of largest priority whose children there is room for, in the order of the frontier, and
+    /// passes over the others. Returns the number of children.
+    template <class P>
+    std::size_t keep_what_fits(const P& problem, std::size_t room) {
+        const auto children_of = [&](const RefinementCandidate& c) {
+            return static_cast<std::size_t>(problem.children(nodes_[c.at]));
+        };
+        std::size_t children = 0;
+        for (const RefinementCandidate& c : chosen_) children += children_of(c);
+        if (children - chosen_.size() > room) {
+            std::sort(chosen_.begin(), chosen_.end(), is_larger(problem));
+            std::size_t kept = 0;
+            children = 0;
+            for (const RefinementCandidate& c : chosen_) {
+                const std::size_t own = children_of(c);
+                if (own - 1 <= room) {
+                    room -= own - 1;
+                    children += own;
+                    chosen_[kept++] = c;
+                } else {
+                    passed_over_.push_back(c.at);
+                }
+            }
+            chosen_.resize(kept);
+        }
+        sort_by_place();
+        return children;
+    }
+
+    /// Puts the nodes that were passed over back into the heap; true if any is above the threshold.
+    template <class P>
+    bool return_passed_over(const P& problem) {
+        bool any_above = false;
+        for (const std::uint32_t at : passed_over_) {
+            any_above |= keys_[at] > static_cast<double>(problem.threshold());
+            push(problem, at);
+        }
+        passed_over_.clear();
+        return any_above;
+    }
+
+    template <class P>
+    auto is_larger(const P& problem) const {
+        return [this, &problem](const RefinementCandidate& a, const RefinementCandidate& b) {
+            if (a.priority != b.priority) return a.priority > b.priority;
+            return static_cast<bool>(problem.precedes(nodes_[a.at], nodes_[b.at]));
+        };
+    }
+    void sort_by_place() {
         const auto at_less = [](const RefinementCandidate& a, const RefinementCandidate& b) { return a.at < b.at; };
         if (!std::is_sorted(chosen_.begin(), chosen_.end(), at_less)) {
             std::sort(chosen_.begin(), chosen_.end(), at_less);
@@ -317,6 +379,7 @@ private:
         for (std::size_t i = 0; i < absorbed_; ++i) {
             if (keys_[i] != hole) keys_[i] = key_of(problem, nodes_[i]);
         }
+        passed_over_.clear();
         fill_heap(problem);
     }
 
@@ -370,17 +433,22 @@ private:
         p.tighten(nodes, candidates);
     };
     template <class P>
-    static constexpr std::size_t most_children(const P& problem) {
-        if constexpr (requires { problem.most_children(); }) {
-            LIGHTCUTS_ASSERT(problem.most_children() >= 2);
-            return problem.most_children();
+    static constexpr bool counts_children = requires(const P p, const Node& n) {
+        { p.children(n) } -> std::convertible_to<std::size_t>;
+    };
+    /// What a split has room for: in a problem that counts children the least that there can be, else the most.
+    template <class P>
+    static constexpr std::size_t children_a_split = [] {
+        if constexpr (counts_children<P>) {
+            static_assert(FixedPriorityProblem<P>, "children are counted where priorities are fixed");
+            return std::size_t{2};
         } else if constexpr (requires { P::most_children; }) {
             static_assert(P::most_children >= 2, "a problem splits nodes into two or more");
-            return P::most_children;
+            return std::size_t{P::most_children};
         } else {
-            return 2;
+            return std::size_t{2};
         }
-    }
+    }();
 
     static constexpr double infinity = std::numeric_limits<double>::infinity();
     static constexpr double final_node = -1.0;  ///< key of a node that can never be refined
@@ -392,6 +460,7 @@ private:
     std::vector<std::uint32_t> heap_;          ///< places with keys above zero, ordered by keys, if `in_heap_`
     std::vector<std::uint32_t> holes_;         ///< places whose nodes were refined
     std::vector<RefinementCandidate> chosen_;  ///< to be refined in this round
+    std::vector<std::uint32_t> passed_over_;   ///< places not in the heap, of nodes with too many children
     std::size_t absorbed_ = 0;                 ///< nodes behind are fresh
     bool in_heap_ = false;
     StopReason stop_ = StopReason::unfinished;

@@ -94,12 +94,6 @@ public:
         detail::check_moments(tree, moments.size());
         tree_ = &tree;
         moments_ = &moments;
-        most_children_ = 2;
-        for (std::uint32_t n = 0; !tree.is_binary() && n < tree.size(); ++n) {
-            std::size_t children = 0;
-            if (!tree.is_leaf(n)) tree.for_each_child(n, [&](std::uint32_t) { ++children; });
-            most_children_ = (std::max)(most_children_, children);
-        }
         // One round of nothing but the roots.
         auto nothing = [](std::uint32_t) { return 0.0; };
         Problem<decltype(nothing)> problem{*this, nothing, 0.0};
@@ -108,7 +102,7 @@ public:
     }
 
     /// Refines nodes, that of the largest error first, until sqrt(|C| var) is at most `node_deviation` everywhere or
-    /// there are `max_size` pieces. In a tree that is not binary it may end earlier, by the most children of a node.
+    /// there are `max_size` pieces. Nodes of more children than there is room for are passed over.
     /// throws: invalid_input if `node_deviation` is negative or no number.
     StopReason refine_by_error(double node_deviation, std::size_t max_size = unlimited) {
         detail::check_deviation(node_deviation, "node_deviation");
@@ -191,7 +185,12 @@ private:
         bool is_final(Node n) const { return owner.tree_->is_leaf(n); }
         double priority(Node n) const { return static_cast<double>(rule(n)); }
         double threshold() const { return least; }
-        std::size_t most_children() const { return owner.most_children_; }
+        std::size_t children(Node n) const {
+            if (owner.tree_->is_binary()) return 2;
+            std::size_t count = 0;
+            owner.tree_->for_each_child(n, [&](Node) { ++count; });
+            return count;
+        }
         void split(Node n, ReusableList<Node>& out) {
             owner.tree_->for_each_child(n, [&](Node child) { out.append(child); });
         }
@@ -242,7 +241,6 @@ private:
 
     const ClusterTree* tree_ = nullptr;
     const std::vector<MomentsOf<V>>* moments_ = nullptr;
-    std::size_t most_children_ = 2;
     Refinement<std::uint32_t> refinement_;
     std::vector<std::uint32_t> nodes_;  ///< storage of `store`
 };
