@@ -1,3 +1,4 @@
+#include <cstdint>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -5,6 +6,7 @@
 #include <lightcuts/piecewise/algebra.hpp>
 #include <lightcuts/piecewise/approximate.hpp>
 #include <lightcuts/piecewise/bounded_product.hpp>
+#include <lightcuts/piecewise/tree_file.hpp>
 #include "piecewise/functions.hpp"
 #include "support/allocations.hpp"
 
@@ -42,6 +44,56 @@ TEST(PiecewiseAllocation, DoesNotHappenOnceWarm) {
     everything();
     EXPECT_EQ(allocations, before);
     EXPECT_GT(sink, 0.0);
+}
+
+// Few bytes that speak of many items must not take memory for them.
+TEST(PiecewiseAllocation, OfATreeFileIsThatOfItsBytes) {
+    const ClusterTree tree({ClusterTree::leaf_word(1'000'000'000)}, ClusterTree::max_items);
+    const auto bytes = tree_file(tree);
+    EXPECT_EQ(bytes.size(), 64u);
+    largest_allocation = 0;
+    EXPECT_EQ(read_tree(bytes).tree, tree);
+    EXPECT_LE(largest_allocation, 1000u);
+}
+
+/// A function whose values come by reference.
+struct ByReference {
+    std::vector<Piece> all;
+    std::vector<float> numbers;
+    const std::vector<Piece>& pieces() const { return all; }
+    const std::vector<float>& values() const { return numbers; }
+};
+
+TEST(PiecewiseAllocation, DoesNotHappenToValuesByReference) {
+    ByReference f;
+    for (std::uint32_t i = 0; i < 1000; ++i) {
+        f.all.push_back({2 * i, i + 1});
+        f.numbers.push_back(1.0f);
+    }
+    const std::size_t before = allocations;
+    const double sum = sum_of_products(f, f);
+    EXPECT_EQ(allocations, before);
+    EXPECT_EQ(sum, 1000.0);
+}
+
+// A root of many small basins, all of one error.
+TEST(PiecewiseAllocation, OfARefinementIsThatOfItsPieces) {
+    constexpr std::uint32_t basins = 60'000;
+    std::vector<std::uint32_t> words;
+    for (std::uint32_t i = 0; i < basins; ++i) {
+        words.insert(words.end(), {ClusterTree::leaf_word(2 * i), ClusterTree::leaf_word(2 * i + 1), 3 * i});
+    }
+    words.push_back(0);
+    const ClusterTree tree(words);
+    const auto of = moments(tree, [](std::uint32_t i) { return static_cast<float>(i % 2); });
+    OrderedApproximation<float> ordered;
+    ordered.start(tree, of);
+    largest_allocation = 0;
+    EXPECT_EQ(ordered.refine_by_error(0.0, 100'001), StopReason::limit);
+    EXPECT_EQ(ordered.size(), 100'001u);
+    EXPECT_EQ(ordered.refine_by_error(0.0), StopReason::converged);
+    EXPECT_EQ(ordered.size(), 2u * basins);
+    EXPECT_LE(largest_allocation, 10'000'000u);
 }
 
 }  // namespace

@@ -211,5 +211,31 @@ TEST(PiecewiseConstant, IsValidatedAgainstItsTree) {
     EXPECT_NE(refusal([&] { validate(other, f); }), "");
 }
 
+TEST(Merge, LeavesNoHalfFunctionBehind) {
+    Random random(41);
+    const ClusterTree tree = random_tree(random, 12), other = random_tree(random, 13);
+    std::vector<std::uint32_t> leaves;
+    for (std::uint32_t n = 0; n < tree.size(); ++n) {
+        if (tree.is_leaf(n)) leaves.push_back(n);
+    }
+    std::vector<float> values(leaves.size(), 1.0f);
+    Function f, out;
+    assign<float>(tree, leaves, values, f);
+    // Arguments that do not belong together are noticed before.
+    out = f;
+    const Function foreign = random_piecewise(random, other);
+    EXPECT_THROW(product(out, f, foreign), invalid_input);
+    EXPECT_THROW(assign<float>(tree, leaves, std::span(values).first(3), out), invalid_input);
+    EXPECT_EQ(out.size(), f.size());
+    // The last value is none.
+    values.back() = std::nanf("");
+    EXPECT_THROW(assign<float>(tree, leaves, values, out), invalid_input);
+    EXPECT_TRUE(out.empty());
+    int calls = 0;
+    const auto tires = [&](float a) { return ++calls < 5 ? a : throw invalid_input("tired"); };
+    EXPECT_THROW(merged(out, tires, f), invalid_input);
+    EXPECT_TRUE(out.empty());
+}
+
 }  // namespace
 }  // namespace lightcuts::test

@@ -7,6 +7,10 @@
 #include <string>
 #include <vector>
 
+#if __has_include(<sys/stat.h>)
+#include <sys/stat.h>
+#endif
+
 #include <gtest/gtest.h>
 
 #include <lightcuts/piecewise/bounded_product.hpp>
@@ -262,6 +266,49 @@ TEST(CutFile, ChecksCutsAgainstTheTree) {
               std::string::npos);
 }
 
+// Bytes of a cut whose checksum is mended after they were changed.
+void mend(Bytes& bytes) {
+    const auto sum = static_cast<std::uint32_t>(detail::checksum(std::span(bytes).subspan(4)));
+    for (std::size_t i = 0; i < 4; ++i) bytes[i] = static_cast<std::byte>(sum >> (8 * i) & 0xffu);
+}
+
+TEST(Compact, RefusesNodesThatDescend) {
+    Bytes bytes;
+    for (const std::uint32_t second : {2u, 5u}) {
+        Function f;
+        f.append({5, 3}, 1.0f);
+        f.append({second, 5}, 2.0f);
+        EXPECT_NE(refusal_of([&] { encode(f, {}, bytes); }).find("piece 1, node " + std::to_string(second)),
+                  std::string::npos);
+        EXPECT_TRUE(bytes.empty());
+    }
+}
+
+TEST(Compact, LeavesNoHalfFunctionBehind) {
+    Random random(11);
+    const ClusterTree tree = random_tree(random, 12);
+    const Stored s(random, tree, Kind::uniform);
+    Function f = means_on<float>(tree, s.of, random_cut(random, tree, 0.0));
+    for (const CutEncoding& encoding : encodings) {
+        Bytes bytes;
+        encode(f, encoding, bytes);
+        Bytes bad = bytes;
+        bad[24 + 2 * f.size() - 2] = std::byte{200};  // the last step
+        mend(bad);
+        Function out = f;
+        EXPECT_NE(refusal_of([&] { decode(bad, encoding, tree, out); }), "");
+        EXPECT_TRUE(out.empty());
+        if (!encoding.deviations) continue;
+        bad = bytes;
+        bad[bad.size() - 1] = bad[bad.size() - 2] = std::byte{0xff};  // the last deviation: no number
+        mend(bad);
+        out = f;
+        EXPECT_NE(refusal_of([&] { decode(bad, encoding, tree, out); }), "");
+        EXPECT_TRUE(out.empty());
+        EXPECT_FALSE(out.has_deviations());
+    }
+}
+
 TEST(TreeFile, KeepsTheTreeAndItsSummaries) {
     const Folder folder;
     Random random(7);
@@ -309,6 +356,16 @@ TEST(TreeFile, IsRefusedWhereItIsDamagedCutShortOrForeign) {
     EXPECT_NE(refusal_of([&] { tree_file(tree, std::span<const float>(few)); }), "");
 }
 
+// Most items are left out, so that they are sorted.
+TEST(TreeFile, FindsItemsThatOccurTwiceAmongManyLeftOut) {
+    constexpr std::uint32_t a = ClusterTree::leaf_word(900'000'000), b = ClusterTree::leaf_word(7);
+    const ClusterTree twice({b, a, 0, a, b, 3, 0}, ClusterTree::max_items);
+    EXPECT_NE(refusal_of([&] { read_tree(tree_file(twice)); }).find("node 3: item 900000000 occurs twice"),
+              std::string::npos);
+    const ClusterTree beyond({b, a, 0}, 900'000'000);
+    EXPECT_NE(refusal_of([&] { read_tree(tree_file(beyond)); }).find("out of range"), std::string::npos);
+}
+
 TEST(FileBytes, LeaveNoHalfWrittenFileBehind) {
     const Folder folder;
     const Bytes bytes(100);
@@ -323,8 +380,50 @@ TEST(FileBytes, LeaveNoHalfWrittenFileBehind) {
     EXPECT_TRUE(MappedFile(folder.path / "empty").bytes().empty());
     Random random(9);
     const ClusterTree tree = random_tree(random, 5);
-    EXPECT_NE(refusal_of([&] { CutFile(MappedFile(folder.path / "empty").bytes(), tree); }), "");
+    const MappedFile empty(folder.path / "empty");
+    EXPECT_NE(refusal_of([&] { CutFile(empty.bytes(), tree); }), "");
 }
+
+#if __has_include(<sys/stat.h>)
+TEST(FileBytes, DoNotWaitForPipes) {
+    const Folder folder;
+    const std::filesystem::path pipe = folder.path / "pipe";
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    EXPECT_NE(refusal_of([&] { MappedFile file(pipe); }).find("pipe"), std::string::npos);
+    EXPECT_NE(refusal_of([&] { write_bytes(pipe, Bytes(10)); }).find("no regular file"), std::string::npos);
+    EXPECT_TRUE(std::filesystem::is_fifo(pipe));
+    EXPECT_EQ(folder.files(), 1u);
+}
+
+TEST(FileBytes, AreWrittenToWhereLinksLead) {
+    namespace fs = std::filesystem;
+    const Folder folder;
+    fs::create_directory(folder.path / "there");
+    fs::create_symlink("there/file", folder.path / "inner");
+    fs::create_symlink(folder.path / "inner", folder.path / "outer");
+    for (const std::size_t size : {10u, 20u}) {  // a file that is not there yet, and one that is
+        write_bytes(folder.path / "outer", Bytes(size));
+        EXPECT_TRUE(fs::is_symlink(folder.path / "outer") && fs::is_symlink(folder.path / "inner"));
+        EXPECT_EQ(fs::file_size(folder.path / "there" / "file"), size);
+    }
+    EXPECT_EQ(folder.files(), 3u);
+    fs::create_symlink("self", folder.path / "self");
+    EXPECT_NE(refusal_of([&] { write_bytes(folder.path / "self", Bytes(1)); }).find("leads nowhere"),
+              std::string::npos);
+}
+
+TEST(FileBytes, KeepPermissions) {
+    namespace fs = std::filesystem;
+    const Folder folder;
+    const fs::path file = folder.path / "private";
+    write_bytes(file, Bytes(1));
+    for (const fs::perms p : {fs::perms::owner_read, fs::perms::owner_read | fs::perms::owner_write}) {
+        fs::permissions(file, p);
+        write_bytes(file, Bytes(2));
+        EXPECT_EQ(fs::status(file).permissions(), p);
+    }
+}
+#endif
 
 }  // namespace
 }  // namespace lightcuts::test

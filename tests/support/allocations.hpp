@@ -8,6 +8,8 @@ namespace lightcuts::test {
 
 /// How often this program has allocated.
 inline std::size_t allocations = 0;
+/// The most bytes that one of them was for; set it to zero before you look.
+inline std::size_t largest_allocation = 0;
 
 }  // namespace lightcuts::test
 
@@ -15,6 +17,7 @@ inline std::size_t allocations = 0;
 // Not inlined, or GCC takes malloc's memory in one for a mismatch in the other.
 [[gnu::noinline]] void* operator new(std::size_t size) {
     ++lightcuts::test::allocations;
+    if (size > lightcuts::test::largest_allocation) lightcuts::test::largest_allocation = size;
     if (void* p = std::malloc(size)) return p;
     throw std::bad_alloc();
 }

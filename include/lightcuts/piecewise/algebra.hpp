@@ -105,7 +105,7 @@ void interpolate(PiecewiseConstant<V>& out, std::span<const float> weights, std:
             LIGHTCUTS_THROW(invalid_input("interpolate: weight " + std::to_string(i) + " is not finite"));
         }
     }
-    out.clear();
+    detail::Filling filling(out);
     std::uint32_t end = 0;
     merge(functions, scratch, [&](std::uint32_t node, std::uint32_t leaves, std::span<const V> values) {
         V total = values[0] * weights[0];
@@ -113,6 +113,7 @@ void interpolate(PiecewiseConstant<V>& out, std::span<const float> weights, std:
         end += leaves;
         out.append({node, end}, total);
     });
+    filling.finish();
 }
 
 }  // namespace lightcuts

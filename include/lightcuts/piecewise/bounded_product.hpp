@@ -227,15 +227,6 @@ template <int Channels>
 std::uint32_t leaf_count_of(const WholeTree<Channels>& f) {
     return f.leaf_count();
 }
-/// throws: invalid_input if the functions have different numbers of leaves, else returns it.
-template <class F, class... G>
-std::uint32_t common_leaf_count(const F& f, const G&... g) {
-    const std::uint32_t leaves = leaf_count_of(f);
-    for (const std::uint32_t other : {leaf_count_of(g)...}) {
-        if (other != leaves) refuse_merge(leaves, other);
-    }
-    return leaves;
-}
 
 }  // namespace detail
 
@@ -255,7 +246,7 @@ concept BoundedFactor = DeviatingFunction<F> || detail::is_whole_tree<F>;
 /// deviations. cost: O(pieces); allocates nothing.
 template <DeviatingFunction F, BoundedFactor G>
 BoundedSum bounded_product(const F& f, const G& g) {
-    const std::uint32_t leaf_count = detail::common_leaf_count(f, g);
+    const std::uint32_t leaf_count = detail::common_leaf_count({detail::leaf_count_of(f), detail::leaf_count_of(g)});
     if (leaf_count == 0) return {};
     detail::ProductSum sum;
     auto a = detail::cursor_of(f);
@@ -294,7 +285,8 @@ BoundedSum bounded_product(const F& f, const G& g) {
 /// pre: functions of one tree, 0 <= v <= 1. throws: as of two. cost: O(pieces); allocates nothing.
 template <DeviatingFunction V, BoundedFactor F, BoundedFactor G>
 BoundedSum bounded_product(const V& v, const F& f, const G& g) {
-    const std::uint32_t leaf_count = detail::common_leaf_count(v, f, g);
+    const std::uint32_t leaf_count = detail::common_leaf_count(
+        {detail::leaf_count_of(v), detail::leaf_count_of(f), detail::leaf_count_of(g)});
     if (leaf_count == 0) return {};
     detail::ProductSum sum;
     auto a = detail::cursor_of(v);

@@ -83,7 +83,8 @@ private:
 /// Appends a cut to `bytes`: 24 bytes and, a piece, 2 of how far its node is from the one before, which take 4 more
 /// where that is above 65,535, then those of the value, and of the deviation. Scalars only: of several channels store
 /// each. Stored values are off by at most `quantization_error` of the least and the largest.
-/// throws: invalid_input if a value is not finite, or there are no deviations to be stored. cost: O(size).
+/// throws: invalid_input if nodes do not ascend, a value is not finite, or there are no deviations to be stored; then
+/// nothing was appended. cost: O(size).
 inline void encode(const PiecewiseConstant<float>& f, const CutEncoding& encoding, std::vector<std::byte>& bytes) {
     if (encoding.deviations && !f.empty() && !f.has_deviations()) {
         LIGHTCUTS_THROW(invalid_input("encode: the cut has no deviations to be stored; approximate it with them"));
@@ -93,12 +94,14 @@ inline void encode(const PiecewiseConstant<float>& f, const CutEncoding& encodin
     std::int64_t last = -1;
     for (std::size_t i = 0; i < f.size(); ++i) {
         const float v = f.values()[i];
+        const std::uint32_t node = f.pieces()[i].node();
+        if (node <= last) detail::refuse_piece(i, node, "nodes of a cut have to ascend; sort them");
         detail::check_finite(i, f.pieces()[i], v);
         least = i == 0 ? v : (std::min)(least, v);
         largest = i == 0 ? v : (std::max)(largest, v);
         if (encoding.deviations) offset = (std::max)(offset, f.deviation(i).offset);
-        wide += f.pieces()[i].node() - last > 0xffff ? 1u : 0u;
-        last = f.pieces()[i].node();
+        wide += node - last > 0xffff ? 1u : 0u;
+        last = node;
     }
     const std::size_t begin = bytes.size();
     detail::ByteWriter out(bytes);
@@ -145,7 +148,7 @@ inline void decode(std::span<const std::byte> bytes, const CutEncoding& encoding
         LIGHTCUTS_THROW(invalid_input(
             "cut" + (index == detail::no_cut_index ? std::string() : " " + std::to_string(index)) + ": " + problem));
     };
-    out.clear();
+    detail::Filling filling(out);
     if (bytes.size() < detail::cut_header_size) refuse("is cut short");
     const auto word = [&](std::size_t i) { return detail::load<std::uint32_t>(bytes.data() + 4 * i); };
     if (word(0) != static_cast<std::uint32_t>(detail::checksum(bytes.subspan(4)))) {
@@ -195,15 +198,15 @@ inline void decode(std::span<const std::byte> bytes, const CutEncoding& encoding
     }
     if (at != values_begin) refuse("has not the nodes that it says");
     walk.finish(count);
-    if (!encoding.deviations) return;
     const auto error = static_cast<double>(quantization_error(least, largest, encoding.bits));
-    for (std::size_t i = 0; i < count; ++i, deviation_at += 2) {
+    for (std::size_t i = 0; encoding.deviations && i < count; ++i, deviation_at += 2) {
         const auto norm = static_cast<double>(detail::from_16_bits(detail::load<std::uint16_t>(deviation_at)));
         if (!(norm >= 0.0)) refuse("has a deviation that is no number");
         const double more = error * std::sqrt(static_cast<double>(out.leaves(i)));
         out.append_deviation(
             {round_up((norm + more) * (1.0 + 0x1p-50)), round_up(static_cast<double>(offset) + error)});
     }
+    filling.finish();
 }
 
 }  // namespace lightcuts

@@ -24,10 +24,11 @@ namespace lightcuts {
 /// The file must not be written to, or made shorter, meanwhile; `write_bytes` replaces it, which is no harm.
 class MappedFile {
 public:
-    /// throws: invalid_input naming the file if it cannot be read.
+    /// throws: invalid_input naming the file if it cannot be read, or is a folder, a pipe or a device.
     explicit MappedFile(const std::filesystem::path& path) {
 #ifdef LIGHTCUTS_MAPS_FILES
-        const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+        // A pipe without a writer would be waited for.
+        const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
         struct stat status {};
         if (descriptor >= 0 && ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode) && status.st_size > 0) {
             const auto size = static_cast<std::size_t>(status.st_size);

@@ -5,6 +5,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <limits>
 #include <span>
 #include <string>
@@ -33,6 +34,15 @@ std::uint32_t leaf_count_of(const F& f) {
     return pieces.empty() ? 0 : pieces.back().leaf_end();
 }
 
+/// The number of leaves that functions have in common. throws: invalid_input if they have different ones.
+inline std::uint32_t common_leaf_count(std::initializer_list<std::uint32_t> leaf_counts) {
+    const std::uint32_t first = *leaf_counts.begin();
+    for (const std::uint32_t other : leaf_counts) {
+        if (other != first) refuse_merge(first, other);
+    }
+    return first;
+}
+
 constexpr std::uint64_t smaller_key(std::uint64_t a, std::uint64_t b) { return a < b ? a : b; }
 
 /// The leaf at which a function's last piece begins.
@@ -45,15 +55,11 @@ std::uint32_t last_begin(const F& f) {
 template <class Op, std::size_t... k, PiecewiseFunction... F>
 [[gnu::always_inline]] inline void merge(Op& op, std::index_sequence<k...>, const F&... functions) {
     constexpr std::size_t count = sizeof...(F);
-    const std::array<std::uint32_t, count> leaf_counts{leaf_count_of(functions)...};
-    const std::uint32_t leaf_count = leaf_counts[0];
-    for (const std::uint32_t other : leaf_counts) {
-        if (other != leaf_count) refuse_merge(leaf_count, other);
-    }
+    const std::uint32_t leaf_count = common_leaf_count({leaf_count_of(functions)...});
     if (leaf_count == 0) return;
     const std::array<std::span<const Piece>, count> all{functions.pieces()...};
     const std::array<const Piece*, count> pieces{all[k].data()...};
-    const auto values = std::make_tuple(functions.values()...);
+    const std::tuple<decltype(functions.values())...> values(functions.values()...);
 
     // Every function's piece at the current leaf: they lie within each other, and that of the smallest key is the
     // innermost. All that end with it give way to their next. No branch depends on which these are: that would be
@@ -165,7 +171,8 @@ template <class V, class Op, PiecewiseFunction... F>
     requires(sizeof...(F) >= 1)
 &&std::invocable<Op&, const piecewise_value_of<F>&...> void merged(PiecewiseConstant<V>& out, Op&& op,
                                                                    const F&... functions) {
-    out.clear();
+    detail::common_leaf_count({detail::leaf_count_of(functions)...});
+    detail::Filling filling(out);
     std::uint32_t end = 0;
     merge(
         [&](std::uint32_t node, std::uint32_t leaves, const auto&... values) {
@@ -173,6 +180,7 @@ template <class V, class Op, PiecewiseFunction... F>
             out.append({node, end}, op(values...));
         },
         functions...);
+    filling.finish();
 }
 
 }  // namespace lightcuts

@@ -45,7 +45,8 @@ concept DeviatingFunction = PiecewiseFunction<F> && std::floating_point<piecewis
 };
 
 /// A piecewise-constant function that owns its storage: 8 bytes and a value a piece, and 8 bytes a channel more where
-/// deviations are kept. Fill it by an approximation, by a merge, from a file, or by `append`.
+/// deviations are kept. Fill it by an approximation, by a merge, from a file, or by `append`. What fills one anew and
+/// throws leaves it empty, or as it was: never half of it.
 /// The tree is not referred to: `validate` checks that a function is one over a given tree.
 template <class V>
 class PiecewiseConstant {
@@ -190,6 +191,22 @@ private:
     std::uint32_t leaf_end_ = 0;
 };
 
+/// Clears a function that is to be filled, and once more unless it was.
+template <class V>
+class Filling {
+public:
+    explicit Filling(PiecewiseConstant<V>& out) : out_(&out) { out.clear(); }
+    Filling(const Filling&) = delete;
+    Filling& operator=(const Filling&) = delete;
+    ~Filling() {
+        if (out_ != nullptr) out_->clear();
+    }
+    void finish() { out_ = nullptr; }
+
+private:
+    PiecewiseConstant<V>* out_;
+};
+
 template <class V>
 void check_finite(std::size_t i, const Piece& piece, const V& value) {
     if constexpr (PiecewiseValue<V>) {
@@ -231,7 +248,7 @@ void assign(const ClusterTree& tree, std::span<const std::uint32_t> nodes, std::
         LIGHTCUTS_THROW(invalid_input("cut: " + std::to_string(nodes.size()) + " nodes, but " +
                                       std::to_string(values.size()) + " values"));
     }
-    out.clear();
+    detail::Filling filling(out);
     detail::CutWalk walk(tree);
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         const Piece piece = walk.next(i, nodes[i]);
@@ -239,6 +256,7 @@ void assign(const ClusterTree& tree, std::span<const std::uint32_t> nodes, std::
         out.append(piece, values[i]);
     }
     walk.finish(nodes.size());
+    filling.finish();
 }
 
 }  // namespace lightcuts

@@ -89,7 +89,7 @@ template <class T = NoSummary>
         if (nodes >= 2 * ClusterTree::max_items || item_bound > ClusterTree::max_items || stored_record > (1u << 20)) {
             in.refuse("is damaged: its numbers are too large");
         }
-        const std::size_t payload = static_cast<std::size_t>(nodes * (4 + stored_record));
+        const std::uint64_t payload = nodes * (4 + stored_record);  // below 2^52
         if (in.left() != payload) {
             in.refuse(in.left() < payload
                           ? "is cut short: " + std::to_string(payload - in.left()) + " bytes are missing"

@@ -13,23 +13,49 @@
 
 namespace lightcuts {
 
+namespace detail {
+
+/// The first leaf whose item one before it has, too; the number of nodes if there is none. cost: O(N log N).
+inline std::size_t first_repeated(const ClusterTree& tree) {
+    std::vector<std::uint64_t> by_item;  // in the upper half, the node in the lower
+    for (ClusterTree::node_index n = 0; n < tree.size(); ++n) {
+        if (tree.is_leaf(n)) by_item.push_back(std::uint64_t{tree.item(n)} << 32 | n);
+    }
+    std::sort(by_item.begin(), by_item.end());
+    std::size_t first = tree.size();
+    for (std::size_t i = 1; i < by_item.size(); ++i) {
+        if (by_item[i] >> 32 == by_item[i - 1] >> 32) {
+            first = (std::min)(first, static_cast<std::size_t>(by_item[i] & 0xffff'ffffu));
+        }
+    }
+    return first;
+}
+
+}  // namespace detail
+
 /// Checks that `tree` is a post-order tree, each inner node of which has two children or more, in which no item occurs
 /// twice and all are below `tree.item_bound()`; as long as that is their number, every item occurs exactly once.
-/// throws: invalid_input naming the first node that is wrong. cost: O(item_bound).
+/// throws: invalid_input naming the first node that is wrong. cost: O(N), or O(N log N) where item_bound is far above.
+/// memory: O(N).
 inline void validate(const ClusterTree& tree) {
     const auto refuse = [](std::size_t node, const std::string& what) {
         LIGHTCUTS_THROW(invalid_input("cluster tree, node " + std::to_string(node) + ": " + what));
     };
     const std::vector<std::uint32_t>& words = tree.words();
     if (words.empty()) return;
-    std::vector<bool> seen(tree.item_bound(), false);
+    // A bit an item takes no more memory than the tree, unless most items are left out.
+    const bool few_are_left_out = tree.item_bound() <= 32 * words.size();
+    std::vector<bool> seen(few_are_left_out ? tree.item_bound() : 0, false);
+    const std::size_t repeated = few_are_left_out ? words.size() : detail::first_repeated(tree);
     std::vector<std::uint32_t> first_leaves;  // of the complete subtrees so far, left to right
     for (ClusterTree::node_index n = 0; n < words.size(); ++n) {
         if (tree.is_leaf(n)) {
             const std::uint32_t item = tree.item(n);
-            if (item >= seen.size()) refuse(n, "item " + std::to_string(item) + " is out of range");
-            if (seen[item]) refuse(n, "item " + std::to_string(item) + " occurs twice");
-            seen[item] = true;
+            if (item >= tree.item_bound()) refuse(n, "item " + std::to_string(item) + " is out of range");
+            if (few_are_left_out ? seen[item] : n == repeated) {
+                refuse(n, "item " + std::to_string(item) + " occurs twice");
+            }
+            if (few_are_left_out) seen[item] = true;
             first_leaves.push_back(n);
         } else {
             if (first_leaves.size() < 2) refuse(n, "an inner node needs two complete subtrees before it");
