@@ -1,6 +1,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <ranges>
 #include <span>
 #include <vector>
 
@@ -26,6 +27,22 @@ private:
     int id_;
 };
 
+/// Pieces as a range that is no span, but lasts as one does.
+struct BorrowedPieces {
+    const std::vector<Piece>* all;
+    const Piece* begin() const { return all->data(); }
+    const Piece* end() const { return all->data() + all->size(); }
+};
+
+}  // namespace
+}  // namespace lightcuts::test
+
+template <>
+inline constexpr bool std::ranges::enable_borrowed_range<lightcuts::test::BorrowedPieces> = true;
+
+namespace lightcuts::test {
+namespace {
+
 /// A function whose pieces come as something that becomes a span, and whose values can only be indexed.
 class LeastFunction : Pinned {
 public:
@@ -33,12 +50,8 @@ public:
         const Opaque* first;
         const Opaque& operator[](std::size_t i) const { return first[i]; }
     };
-    struct Pieces {
-        const std::vector<Piece>* all;
-        operator std::span<const Piece>() const { return *all; }
-    };
     LeastFunction() : Pinned(0) {}
-    Pieces pieces() const { return {&pieces_}; }
+    BorrowedPieces pieces() const { return {&pieces_}; }
     Values values() const { return {values_}; }
 
 private:
@@ -46,6 +59,24 @@ private:
     Opaque values_[2]{Opaque(3), Opaque(4)};
 };
 static_assert(PiecewiseFunction<LeastFunction> && !DeviatingFunction<LeastFunction>);
+
+/// A function that refers to its pieces and to its values, which cannot be copied.
+class LeastReferring : Pinned {
+public:
+    struct Values : Pinned {
+        Values() : Pinned(0) {}
+        const Opaque& operator[](std::size_t i) const { return all[i]; }
+        Opaque all[2]{Opaque(5), Opaque(6)};
+    };
+    LeastReferring() : Pinned(0) {}
+    const std::vector<Piece>& pieces() const { return pieces_; }
+    const Values& values() const { return values_; }
+
+private:
+    std::vector<Piece> pieces_{{0, 1}, {1, 2}};
+    Values values_;
+};
+static_assert(PiecewiseFunction<LeastReferring>);
 
 /// A scalar function with deviations, computed where they are asked for.
 class LeastDeviating : Pinned {
@@ -71,6 +102,14 @@ struct WithoutValues {
 struct WithoutPieces {
     std::span<const float> values() const;
 };
+struct WithPiecesThatVanish {
+    std::vector<Piece> pieces() const;
+    std::span<const float> values() const;
+};
+struct WithValuesThatVanish {
+    std::span<const Piece> pieces() const;
+    std::vector<float> values() const;
+};
 struct WithoutDeviation {
     std::span<const Piece> pieces() const;
     std::span<const float> values() const;
@@ -82,15 +121,37 @@ struct NotSaying {
     Deviation deviation(std::size_t) const;
 };
 static_assert(!PiecewiseFunction<WithoutValues> && !PiecewiseFunction<WithoutPieces>);
+static_assert(!PiecewiseFunction<WithPiecesThatVanish> && PiecewiseFunction<WithValuesThatVanish>);
 static_assert(PiecewiseFunction<WithoutDeviation> && !DeviatingFunction<WithoutDeviation>);
 static_assert(PiecewiseFunction<NotSaying> && !DeviatingFunction<NotSaying>);
 static_assert(PiecewiseValue<float> && PiecewiseValue<double> && PiecewiseValue<Bands> && !PiecewiseValue<Opaque>);
+
+// What algebra asks of types.
+template <class F>
+concept Mergeable = requires(std::span<const F> functions, MergeScratch<float> scratch) {
+    merge(functions, scratch, [](std::uint32_t, std::uint32_t, std::span<const float>) {});
+};
+template <class R>
+concept Summable = requires(const PiecewiseConstant<float>& f, R (*op)(float)) {
+    sum_over_leaves(op, f);
+};
+template <class V>
+concept Interpolated = requires(PiecewiseConstant<V>& out, std::span<const float> weights,
+                                std::span<const PiecewiseConstant<float>> functions, MergeScratch<float>& scratch) {
+    interpolate(out, weights, functions, scratch);
+};
+static_assert(Mergeable<PiecewiseConstant<float>> && !Mergeable<WithValuesThatVanish>);
+static_assert(Summable<float> && Summable<double> && Summable<Bands> && !Summable<bool> && !Summable<int>);
+static_assert(Interpolated<float> && !Interpolated<double>);
 
 TEST(Archetypes, MergeOfFunctionsThatCanOnlyBeLookedAt) {
     const LeastFunction f, g;
     int sum = 0;
     merge([&](std::uint32_t, std::uint32_t, const Opaque& a, const Opaque& b) { sum += a.id() * b.id(); }, f, g);
     EXPECT_EQ(sum, 9 + 16);
+    const LeastReferring h;
+    merge([&](std::uint32_t, std::uint32_t, const Opaque& a, const Opaque& b) { sum += a.id() * b.id(); }, f, h);
+    EXPECT_EQ(sum, 9 + 16 + 15 + 24);
     // An operation that can be called once after the other, and not be copied.
     struct Op : Pinned {
         int* count;

@@ -389,5 +389,33 @@ TEST(OrderedApproximation, PassesOverWhatIsTooWide) {
     EXPECT_EQ(ordered.refine_by_error(6.0, 256), StopReason::converged);
 }
 
+template <class Tree, class M>
+concept Startable = requires(OrderedApproximation<float> ordered, Tree&& tree, M&& of) {
+    ordered.start(static_cast<Tree&&>(tree), static_cast<M&&>(of));
+};
+using OneChannel = std::vector<Moments<1>>;
+static_assert(Startable<const ClusterTree&, const OneChannel&> && Startable<ClusterTree&, OneChannel&>);
+static_assert(!Startable<const ClusterTree&, OneChannel> && !Startable<ClusterTree, const OneChannel&>);
+static_assert(!Startable<ClusterTree, OneChannel>);
+
+TEST(Approximate, RefusesMeansBeyondFloats) {
+    const ClusterTree tree({ClusterTree::leaf_word(0), ClusterTree::leaf_word(1), 0});
+    for (const double large : {1e60, -1e60}) {
+        const auto of = moments(tree, [&](std::uint32_t i) { return i == 0 ? 1.0 : large; });
+        Function f;
+        f.append({2, 2}, 1.0f);
+        EXPECT_THROW(approximate(tree, of, 0.0, f), invalid_input);
+        EXPECT_TRUE(f.empty());
+        OrderedApproximation<float> ordered;
+        ordered.start(tree, of);
+        ordered.refine_by_error(0.0);
+        EXPECT_THROW(ordered.store(f, true), invalid_input);
+        EXPECT_TRUE(f.empty());
+        PiecewiseConstant<double> wide;
+        approximate(tree, of, 0.0, wide);
+        EXPECT_EQ(wide.values()[1], large);
+    }
+}
+
 }  // namespace
 }  // namespace lightcuts::test

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <limits>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #if __has_include(<sys/stat.h>)
@@ -170,6 +171,9 @@ struct Folder {
         return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(path), {}));
     }
 };
+
+static_assert(std::is_constructible_v<CutFile, Bytes&, ClusterTree&>);
+static_assert(!std::is_constructible_v<CutFile, Bytes&, ClusterTree>);
 
 TEST(CutFile, OfThousandsIsMapped) {
     const Folder folder;

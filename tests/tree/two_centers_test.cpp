@@ -4,6 +4,8 @@
 #include <bit>
 #include <cmath>
 #include <set>
+#include <string>
+#include <type_traits>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -169,6 +171,28 @@ TEST(DataDriven, RefusesVectorsThatAreNone) {
     EXPECT_THROW(DataDriven(vectors, 0), invalid_input);
     EXPECT_THROW(DataDriven(vectors, 5, 1.5), invalid_input);
     EXPECT_THROW(DataDriven(vectors, 5, std::nan("")), invalid_input);
+    EXPECT_THROW(DataDriven(vectors, 5, 0.5, {.position_factor = 30.0, .iterations = 0}), invalid_input);
+    EXPECT_THROW(DataDriven(vectors, 5, 0.5, {.position_factor = INFINITY}), invalid_input);
+    for (const float bad : {std::nanf(""), INFINITY, -INFINITY}) {
+        std::vector<float> some = vectors;
+        some[7] = bad;
+        try {
+            const DataDriven unused(some, 5);
+            ADD_FAILURE() << bad;
+        } catch (const invalid_input& error) {
+            EXPECT_NE(std::string(error.what()).find("item 1, number 2 is not finite"), std::string::npos);
+        }
+    }
+}
+static_assert(!std::is_constructible_v<DataDriven, std::vector<float>, std::size_t>);
+
+TEST(TwoCenters, RefuseOptionsOutOfRange) {
+    const auto items = directions(20, 4);
+    for (const TwoCenters bad : {TwoCenters{.iterations = 0}, TwoCenters{.iterations = -1},
+                                 TwoCenters{.position_factor = std::nan("")}, TwoCenters{.position_factor = 1e200}}) {
+        EXPECT_THROW(divide(items, bad), invalid_input);
+    }
+    EXPECT_NO_THROW(divide(items, TwoCenters{.position_factor = 1e100, .iterations = 1}));
 }
 
 }  // namespace

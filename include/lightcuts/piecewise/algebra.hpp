@@ -18,6 +18,10 @@ namespace lightcuts {
 
 namespace detail {
 
+/// What `op` makes of the functions' values.
+template <class Op, class... F>
+using result_over = std::remove_cvref_t<std::invoke_result_t<Op&, const piecewise_value_of<F>&...>>;
+
 /// A sum of values times numbers of leaves, in double.
 template <PiecewiseValue V>
 class LeafSum {
@@ -56,13 +60,13 @@ constexpr auto sum_of(const A& a, const B&... b) {
 
 }  // namespace detail
 
-/// The sum over the leaves of op(values of the functions): a `double` where that is a scalar, else one value. Added up
-/// in double. Multiply by what one leaf stands for, a solid angle or an area, to have an integral.
+/// The sum over the leaves of op(values of the functions), a `PiecewiseValue`: a `double` where that is a scalar, else
+/// one value. Added up in double. Multiply by what one leaf stands for, a solid angle or an area, to have an integral.
 /// pre, throws, cost: as `merge`.
 template <class Op, PiecewiseFunction... F>
     requires(sizeof...(F) >= 1)
-&&std::invocable<Op&, const piecewise_value_of<F>&...> auto sum_over_leaves(Op&& op, const F&... functions) {
-    detail::LeafSum<std::remove_cvref_t<std::invoke_result_t<Op&, const piecewise_value_of<F>&...>>> sum;
+&&PiecewiseValue<detail::result_over<Op, F...>> auto sum_over_leaves(Op&& op, const F&... functions) {
+    detail::LeafSum<detail::result_over<Op, F...>> sum;
     merge([&](std::uint32_t, std::uint32_t leaves, const auto&... values) { sum.add(leaves, op(values...)); },
           functions...);
     return sum.result();
@@ -94,6 +98,7 @@ void sum(PiecewiseConstant<V>& out, const F&... functions) {
 /// [Cut merging 2008, section 3.2]. pre: as `merge`; `out` is none of the functions. throws: invalid_input if there is
 /// not one finite weight a function; as `merge`. cost: as `merge`.
 template <PiecewiseValue V, PiecewiseFunction F>
+    requires std::same_as<piecewise_value_of<F>, V>
 void interpolate(PiecewiseConstant<V>& out, std::span<const float> weights, std::span<const F> functions,
                  MergeScratch<piecewise_value_of<F>>& scratch) {
     if (weights.size() != functions.size()) {

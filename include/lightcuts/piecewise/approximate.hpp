@@ -32,6 +32,21 @@ void append_deviations(std::span<const MomentsOf<V>> moments, PiecewiseConstant<
     }
 }
 
+/// The mean of a piece.
+/// throws: invalid_input naming the node if V is of floats and the mean beyond them. cost: O(1).
+template <PiecewiseValue V>
+V mean_of_piece(const MomentsOf<V>& moments, std::uint32_t node) {
+    const V value = moments.template value<V>();
+    for (int c = 0; c < channels_of<V>; ++c) {
+        if (!std::isfinite(value_channel(value, c))) {
+            LIGHTCUTS_THROW(invalid_input("approximation, node " + std::to_string(node) + ": the mean " +
+                                          std::to_string(moments.mean[static_cast<std::size_t>(c)]) +
+                                          " is beyond the largest float; scale the function, or take doubles"));
+        }
+    }
+    return value;
+}
+
 inline void check_deviation(double deviation, const char* name) {
     if (!(deviation >= 0.0)) {
         LIGHTCUTS_THROW(invalid_input(std::string(name) + ": " + std::to_string(deviation) + " is not 0 or more"));
@@ -51,7 +66,8 @@ inline void check_moments(const ClusterTree& tree, std::size_t moments) {
 /// `node_deviation` [Cut merging 2008, Eq. 5, where it is called sigma]. Whether a node is on the cut depends on
 /// nothing outside its subtree. `moments`: of the function at each node of `tree`. The paper takes 1.5 to 3 for
 /// visibility over 32,000 directions. Deviations are kept with the pieces where `with_deviations` says so, for bounds
-/// of errors. throws: invalid_input if `moments` are not of this tree, or `node_deviation` is negative or no number.
+/// of errors. throws: invalid_input if `moments` are not of this tree, `node_deviation` is negative or no number, or
+/// naming a node whose mean is beyond the values' type.
 /// cost: O(nodes visited), at most twice the size of the cut in a binary tree; nothing is allocated if `out` has room.
 template <PiecewiseValue V>
 void approximate(const ClusterTree& tree, const std::vector<MomentsOf<V>>& moments, double node_deviation,
@@ -59,7 +75,7 @@ void approximate(const ClusterTree& tree, const std::vector<MomentsOf<V>>& momen
     detail::check_moments(tree, moments.size());
     detail::check_deviation(node_deviation, "node_deviation");
     const double most = node_deviation * node_deviation;
-    out.clear();
+    detail::Filling filling(out);
     // From right to left the node before n in the array is its last child, and that before its first leaf the next
     // node which is not below it: a descent without a stack.
     auto leaf_end = static_cast<std::uint32_t>(tree.item_count());
@@ -67,7 +83,7 @@ void approximate(const ClusterTree& tree, const std::vector<MomentsOf<V>>& momen
         const auto node = static_cast<std::uint32_t>(n);
         const MomentsOf<V>& m = moments[node];
         if (tree.is_leaf(node) || m.total_squared_deviation() <= most) {
-            out.append({node, leaf_end}, m.template value<V>());
+            out.append({node, leaf_end}, detail::mean_of_piece<V>(m, node));
             leaf_end -= static_cast<std::uint32_t>(m.leaves);
             n = std::int64_t{tree.left_leaf(node)} - 1;
         } else {
@@ -76,6 +92,7 @@ void approximate(const ClusterTree& tree, const std::vector<MomentsOf<V>>& momen
     }
     out.reverse();
     if (with_deviations) detail::append_deviations<V>(moments, out);
+    filling.finish();
 }
 
 /// Approximates a function step by step, largest first, from the root down: to a largest error of a node, to an L2
@@ -100,6 +117,8 @@ public:
         refinement_.start(problem);
         refinement_.step(problem, {});
     }
+    void start(const ClusterTree&, std::vector<MomentsOf<V>>&&) = delete;
+    void start(ClusterTree&&, const std::vector<MomentsOf<V>>&) = delete;
 
     /// Refines nodes, that of the largest error first, until sqrt(|C| var) is at most `node_deviation` everywhere or
     /// there are `max_size` pieces. Nodes of more children than there is room for are passed over.
@@ -153,18 +172,20 @@ public:
     double total_error() const { return std::sqrt(sum_of_errors()) * (1.0 + 4.0 * unit_roundoff); }
 
     /// Makes `out` the mean of the function below each node of the cut. Deviations are kept with the pieces where
-    /// `with_deviations` says so, for bounds of errors. cost: O(n log n).
+    /// `with_deviations` says so, for bounds of errors.
+    /// throws: invalid_input naming a node whose mean is beyond the values' type. cost: O(n log n).
     void store(PiecewiseConstant<V>& out, bool with_deviations = false) {
         nodes_.clear();
         refinement_.for_each([this](std::uint32_t n) { nodes_.push_back(n); });
         std::sort(nodes_.begin(), nodes_.end());
-        out.clear();
+        detail::Filling filling(out);
         std::uint32_t leaf_end = 0;
         for (const std::uint32_t n : nodes_) {
             leaf_end += static_cast<std::uint32_t>((*moments_)[n].leaves);
-            out.append({n, leaf_end}, (*moments_)[n].template value<V>());
+            out.append({n, leaf_end}, detail::mean_of_piece<V>((*moments_)[n], n));
         }
         if (with_deviations) detail::append_deviations<V>(*moments_, out);
+        filling.finish();
     }
 
 private:

@@ -103,6 +103,8 @@ public:
         }
     }
 
+    CutFile(std::span<const std::byte>, ClusterTree&&) = delete;
+
     std::size_t size() const { return ends_.size() / 8; }
     const CutEncoding& encoding() const { return encoding_; }
 

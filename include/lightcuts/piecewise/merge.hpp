@@ -128,6 +128,7 @@ template <PiecewiseFunction F, class Op>
     requires std::invocable<Op&, std::uint32_t, std::uint32_t, std::span<const piecewise_value_of<F>>> &&
         requires(const F& f) {
         { f.values().data() } -> std::convertible_to<const piecewise_value_of<F>*>;
+        requires detail::LastingElements<decltype(f.values())>;
     }
 void merge(std::span<const F> functions, MergeScratch<piecewise_value_of<F>>& scratch, Op&& op) {
     if (functions.empty()) LIGHTCUTS_THROW(invalid_input("merge: no functions; give one at least"));

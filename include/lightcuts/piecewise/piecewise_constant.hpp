@@ -5,6 +5,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <ranges>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -20,14 +21,24 @@
 
 namespace lightcuts {
 
+namespace detail {
+
+/// The elements of what a function returns so are there still when it is gone.
+template <class R>
+concept LastingElements = std::is_lvalue_reference_v<R> || std::ranges::borrowed_range<R>;
+
+}  // namespace detail
+
 /// A function over the leaves of a tree that is constant below each node of a cut, which is a set of nodes such that
 /// every leaf has exactly one of them above it [Cut merging 2008, section 3.2].
 ///
-/// - `pieces()`: the nodes of the cut in ascending order, as a contiguous range.
+/// - `pieces()`: the nodes of the cut in ascending order, as a contiguous range that the function holds: a reference to
+///   one, or a borrowed one, as a span is.
 /// - `values()`: what can be indexed by a piece's place in that order and gives the value there.
 template <class F>
 concept PiecewiseFunction = requires(const F& f, std::size_t i) {
     { f.pieces() } -> std::convertible_to<std::span<const Piece>>;
+    requires detail::LastingElements<decltype(f.pieces())>;
     f.values()[i];
 };
 

@@ -87,7 +87,7 @@ private:
 }  // namespace detail
 
 /// What `divide_into` needs besides the items and the tree; keep one a thread. Once it has served a build of as many
-/// items, and the tree one of as many nodes, neither allocates.
+/// items, and the tree one of as many nodes, neither allocates; a splitter may.
 template <std::size_t Dimensions>
 struct DivideScratch {
     /// A range, and where its subtree goes.
@@ -106,8 +106,9 @@ struct DivideScratch {
 /// Builds a tree from the top down in the caller's storage: `splitter` divides a set in two until single items remain.
 /// `items`: made by `build_item` in `space`; reordered. `tree`: replaced; its storage is used.
 /// The tree does not depend on the executor. Its depth is at most 3 log2 N + 20; for coincident items ceil(log2 N).
-/// pre: as `build_item`. throws: invalid_input if there are too many items or the splitter's `direction_length` is
-/// negative or not finite. cost: O(N log N); allocates nothing once scratch and tree are warm.
+/// pre: as `build_item`. throws: invalid_input if there are too many items, the splitter's `direction_length` is
+/// negative or not finite, or its `check` throws. cost: O(N log N) and what the splitter takes; allocates nothing but
+/// that once scratch and tree are warm.
 template <std::size_t Dimensions, Splitter<Dimensions> S, Executor E = Sequential, Progress P = NoProgress>
 void divide_into(std::span<BuildItem<Dimensions>> items, const S& splitter, const NormalizedSpace& space,
                  DivideScratch<Dimensions>& scratch, ClusterTree& tree, const E& execute = {}, P&& progress = {}) {
@@ -116,6 +117,7 @@ void divide_into(std::span<BuildItem<Dimensions>> items, const S& splitter, cons
     if constexpr (requires { detail::check_direction_length(splitter.direction_length); }) {
         detail::check_direction_length(splitter.direction_length);
     }
+    if constexpr (requires { splitter.check(); }) splitter.check();
     std::vector<std::uint32_t> words = std::move(tree).release();
     words.resize(items.empty() ? 0 : 2 * items.size() - 1);
     const detail::Divider<Dimensions, S> divider(splitter, space, words);
@@ -175,8 +177,8 @@ ClusterTree divide(std::span<const Item> items, const S& splitter, const E& exec
 /// Builds a tree of items without direction from the top down: `splitter` divides a set in two until single items
 /// remain. The tree does not depend on the executor. Its depth is at most 3 log2 N + 20; for coincident items
 /// ceil(log2 N). See `divide_into` for a build in storage that is kept.
-/// throws: invalid_input naming the item: position not finite, weight not positive; or too many items.
-/// cost: O(N log N); temporary memory of 20 bytes an item besides the tree's 8.
+/// throws: invalid_input naming the item: position not finite, weight not positive; or too many items; or as the
+/// splitter's `check`. cost: O(N log N); temporary memory of 20 bytes an item besides the tree's 8 and the splitter's.
 template <Splitter<3> S = Binned, Executor E = Sequential, Progress P = NoProgress>
 ClusterTree divide(std::span<const PointItem> items, const S& splitter = {}, const E& execute = {}, P progress = {}) {
     return detail::divide(items, splitter, execute, progress);
@@ -186,8 +188,8 @@ ClusterTree divide(std::span<const PointItem> items, const S& splitter = {}, con
 /// The tree does not depend on the executor. Its depth is at most 3 log2 N + 20; for coincident items ceil(log2 N).
 /// See `divide_into` for a build in storage that is kept, or of six coordinates that are no unit axes.
 /// throws: invalid_input naming the item: position not finite, weight not positive, axis not of unit length; or too
-/// many items; or if the splitter's `direction_length` is negative or not finite.
-/// cost: O(N log N); temporary memory of 32 bytes an item besides the tree's 8.
+/// many items; or if the splitter's `direction_length` is negative or not finite, or as its `check`.
+/// cost: O(N log N); temporary memory of 32 bytes an item besides the tree's 8 and the splitter's.
 template <Splitter<6> S = Binned, Executor E = Sequential, Progress P = NoProgress>
 ClusterTree divide(std::span<const OrientedItem> items, const S& splitter = {}, const E& execute = {},
                    P progress = {}) {

@@ -15,6 +15,8 @@ namespace lightcuts {
 /// builder's executor has threads, and must not throw. A tree is the same on every run if the sets do not depend on the
 /// order in which the items come.
 ///
+/// Optional: `check()` throws invalid_input if options are bad; builders call it before they begin.
+///
 /// A splitter whose cuts are too uneven does not make a tree deep: below a depth of about 2 log2 N, `LongestAxis`
 /// takes over. Models: `Binned`, `LongestAxis`, `TwoCenters`, `DataDriven`.
 template <class S, std::size_t Dimensions>

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "../../core/assertion.hpp"
 #include "../../core/invalid_input.hpp"
 #include "build_range.hpp"
 #include "normalized_space.hpp"
@@ -91,7 +93,10 @@ struct VectorMetric {
     std::size_t length;
     double geometric_weight = 1.0, vector_weight = 1.0;
 
-    std::span<const float> vector_of(const Item& item) const { return vectors.subspan(item.item() * length, length); }
+    std::span<const float> vector_of(const Item& item) const {
+        LIGHTCUTS_ASSERT((std::size_t{item.item()} + 1) * length <= vectors.size());
+        return vectors.subspan(item.item() * length, length);
+    }
     Center mean(std::span<const Item> items) const {
         Center c{geometric.mean(items), std::vector<double>(length, 0.0)};
         for (const Item& i : items) {
@@ -123,10 +128,24 @@ struct VectorMetric {
 /// is K^2 |x - center|^2 / diagonal^2 + |n - mean n|^2 [Eq. 10]; of directions on a sphere both x and n are the
 /// direction.
 struct TwoCenters {
-    double position_factor = 30.0;  ///< K: how much positions count for beside normals
+    double position_factor = 30.0;  ///< K: how much positions count for beside normals; up to 1e100
     int iterations = 4;             ///< 1 or more
 
-    /// See `Splitter`; allocates. cost: O(items x iterations).
+    /// throws: invalid_input if an option is out of its range.
+    void check() const {
+        // Squares of larger ones would not be finite.
+        if (!(std::abs(position_factor) <= 1e100)) {
+            LIGHTCUTS_THROW(invalid_input("two centers: position_factor " + std::to_string(position_factor) +
+                                          " is not finite, or above 1e100"));
+        }
+        if (iterations < 1) {
+            LIGHTCUTS_THROW(
+                invalid_input("two centers: " + std::to_string(iterations) + " iterations; take 1 or more"));
+        }
+    }
+
+    /// See `Splitter`; allocates room for the items and a number each. pre: `check` passes. cost: O(items x
+    /// iterations).
     template <std::size_t Dimensions>
     Split<Dimensions> split(const BuildRange<Dimensions>& range, const NormalizedSpace&) const {
         return detail::split_by_two_centers(range, iterations,
@@ -144,7 +163,8 @@ class DataDriven {
 public:
     /// `vectors`: of item i the `length` numbers from i x length on; referred to. `beta`: 0 ignores geometry, 1 all but
     /// geometry; where vectors are equal, of hidden lights say, geometry decides alone.
-    /// throws: invalid_input if `vectors` is no multiple of `length`, or `beta` not in [0, 1].
+    /// throws: invalid_input if `vectors` is no multiple of `length`, naming a number of them that is not finite, if
+    /// `beta` is not in [0, 1], or as `TwoCenters::check`. cost: O(vectors).
     DataDriven(std::span<const float> vectors, std::size_t length, double beta = 0.45, const TwoCenters& geometric = {})
         : vectors_(vectors), length_(length), beta_(beta), geometric_(geometric) {
         if (length == 0 || vectors.size() % length != 0) {
@@ -154,9 +174,18 @@ public:
         if (!(beta >= 0.0 && beta <= 1.0)) {
             LIGHTCUTS_THROW(invalid_input("data-driven splits: beta " + std::to_string(beta) + " is not in 0 to 1"));
         }
+        geometric.check();
+        for (std::size_t i = 0; i < vectors.size(); ++i) {
+            if (!std::isfinite(vectors[i])) {
+                LIGHTCUTS_THROW(invalid_input("data-driven splits: item " + std::to_string(i / length) + ", number " +
+                                              std::to_string(i % length) + " is not finite"));
+            }
+        }
     }
+    DataDriven(std::vector<float>&&, std::size_t, double = 0.45, const TwoCenters& = {}) = delete;
 
-    /// See `Splitter`; allocates. pre: there is a vector for each item. cost: O(items x iterations x length).
+    /// See `Splitter`; allocates as `TwoCenters`, and a vector a center. pre: there is a vector for each item. cost:
+    /// O(items x iterations x length).
     template <std::size_t Dimensions>
     Split<Dimensions> split(const BuildRange<Dimensions>& range, const NormalizedSpace&) const {
         detail::VectorMetric<Dimensions> metric{
