@@ -1,0 +1,188 @@
+#include <chrono>
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <system_error>
+#include <vector>
+
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+#include <lightcuts/core/invalid_input.hpp>
+#include <render/interrupt.hpp>
+#include <render/io/escape.hpp>
+#include <render/io/load_scene.hpp>
+#include <render/io/output_file.hpp>
+#include <render/io/standard_streams.hpp>
+#include <render/memory.hpp>
+#include <render/program.hpp>
+#include <render/progress.hpp>
+#include <render/rays/ray_scene.hpp>
+
+#include "annual.hpp"
+#include "options.hpp"
+#include "trace.hpp"
+#include "visibility_file.hpp"
+#include "year.hpp"
+#include "year_files.hpp"
+
+namespace {
+
+using namespace daylighting;
+
+enum ExitStatus { done = 0, bad_input = 1, bad_command_line = 2, stopped = render::interrupted_status };
+
+void say(const std::string& text) { std::fprintf(stderr, "lightcuts-daylight: %s\n", render::escaped(text).c_str()); }
+
+class Stopwatch {
+public:
+    double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+private:
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+template <class Number>
+std::string text_of(const char* format, Number value) {
+    char text[64];
+    std::snprintf(text, sizeof text, format, value);
+    return text;
+}
+
+/// throws: invalid_input unless all `outputs` can be written and none is one of `inputs`, or another output.
+void require_usable(const std::vector<std::filesystem::path>& outputs,
+                    const std::vector<std::filesystem::path>& inputs) {
+    for (std::size_t i = 0; i < outputs.size(); ++i) {
+        for (const std::filesystem::path& input : inputs) render::require_apart(outputs[i], input);
+        for (std::size_t k = 0; k < i; ++k) {
+            if (outputs[i].lexically_normal() == outputs[k].lexically_normal()) {
+                throw lightcuts::invalid_input(outputs[i].string() + ": two files would have this name");
+            }
+        }
+        render::require_writable(outputs[i]);
+    }
+}
+
+ExitStatus trace(const Options& options) {
+    const std::filesystem::path unfinished = render::beside(options.output, ".resume");
+    if (unfinished == options.output) {
+        throw render::usage_error("--output " + options.output.string() +
+                                  ": this extension is that of unfinished runs");
+    }
+    std::vector<std::filesystem::path> inputs;
+    if (!options.sensors.empty()) inputs.push_back(options.sensors);
+    require_usable({options.output}, inputs);
+    const Stopwatch watch;
+    const SensorSet sensors = options.grid ? sensors_of(*options.grid, options.up)
+                                           : read_sensors(options.sensors, options.up);
+    const render::Scene scene = render::load_scene(options.scene);
+    require_usable({options.output}, scene.files);
+    const render::RayScene rays(scene, render::RayTracer(options.isa));
+    const DirectionTree directions = make_direction_tree(options.directions);
+    render::defer_signals();
+    const Trace result = trace_sensors(
+        scene, rays, directions, sensors,
+        {.error = options.error, .unfinished = unfinished, .resume = options.resume, .shows_progress = !options.quiet});
+    const std::size_t count = sensors.sensors.size();
+    if (result.finished < count) {
+        say(result.finished == 0 ? std::string("interrupted before anything was finished; nothing was written")
+                                 : "interrupted; " + std::to_string(result.finished) + " of " + std::to_string(count) +
+                                       " sensors are in " + unfinished.string() + ", and --resume goes on with them");
+        return stopped;
+    }
+    const std::vector<std::byte> file = visibility_file(directions, sensors, result.sky, result.sun);
+    render::write_file(options.output, {reinterpret_cast<const char*>(file.data()), file.size()});
+    std::error_code ignored;
+    std::filesystem::remove(unfinished, ignored);
+    if (!options.quiet) {
+        const auto n = static_cast<double>(count);
+        say(std::to_string(count) + " sensors, " + std::to_string(directions.size()) +
+            " directions; pieces a sensor: " + text_of("%.0f", static_cast<double>(result.sky_pieces) / n) +
+            " for skies, " + text_of("%.0f", static_cast<double>(result.sun_pieces) / n) + " for the sun; " +
+            text_of("%.1f", static_cast<double>(file.size()) / 1e6) + " MB, " + text_of("%.1f", watch.seconds()) +
+            " s" + (result.resumed > 0 ? ", " + std::to_string(result.resumed) + " sensors by an earlier run" : ""));
+    }
+    return done;
+}
+
+ExitStatus year(const Options& options) {
+    std::vector<std::filesystem::path> outputs;
+    for (const auto& path : {options.output, options.matrix, options.annual, options.picture}) {
+        if (!path.empty()) outputs.push_back(path);
+    }
+    require_usable(outputs, {options.visibility, options.weather});
+    const Stopwatch watch;
+    const Weather weather = read_epw(options.weather);
+    const VisibilityFile traced(options.visibility);
+    const SensorSet& sensors = traced.sensors();
+    if (!options.picture.empty() && sensors.columns == 0) {
+        throw lightcuts::invalid_input(
+            options.visibility.string() +
+            ": its sensors are no grid, of which alone there are pictures; leave --picture out");
+    }
+    const Setting setting{.up = sensors.up, .turned = options.turned, .ground_albedo = options.ground};
+    const std::vector<LitHour> hours = lit_hours(weather, traced.directions(), setting);
+    const CutMatrix cuts(sensors, [&](std::size_t i, auto& out) { traced.read_sky(i, out); });
+    Illuminances lux;
+    {
+        render::Progress progress((hours.size() + block_hours - 1) / block_hours, !options.quiet);
+        lux = sky_light(cuts, traced.directions(), hours, setting, [&] { progress.step(); });
+    }
+    const SunList suns(hours);
+    std::vector<AnnualFigures> figures(sensors.sensors.size());
+    tbb::parallel_for(std::size_t{0}, figures.size(), [&](std::size_t i) {
+        lightcuts::PiecewiseConstant<float> sun;
+        traced.read_sun(i, sun);
+        const double sun_hours = suns.add(sun, sensors.sensors[i].normal, weather, lux.of(i));
+        figures[i] = annual_figures(weather, hours, lux.of(i), options.occupancy, options.target, sun_hours);
+    });
+    const double seconds = watch.seconds();
+    if (!options.output.empty()) write_hourly(options.output, weather, hours, lux);
+    if (!options.matrix.empty()) write_matrix(options.matrix, weather, hours, lux);
+    if (!options.annual.empty()) write_annual(options.annual, sensors, figures, options.target);
+    std::string shown;
+    if (!options.picture.empty()) {
+        const double white = write_picture(options.picture, sensors, figures, options.figure);
+        shown = "; the picture shows " + options.figure + " from 0, black, to " + text_of("%.4g", white) + ", white";
+    }
+    if (!options.quiet) {
+        double autonomy = 0.0;
+        for (const AnnualFigures& f : figures) autonomy += f.autonomy / static_cast<double>(figures.size());
+        say(std::to_string(figures.size()) + " sensors, " + std::to_string(weather.hours.size()) + " hours, " +
+            std::to_string(hours.size()) + " of them lit, in " + text_of("%.1f", seconds) +
+            " s; mean daylight autonomy " + text_of("%.0f", 100.0 * autonomy) + " %" + shown);
+    }
+    return done;
+}
+
+ExitStatus run(const Options& options) {
+    if (options.action == Options::Action::help) render::print(options.help);
+    if (options.action == Options::Action::version) {
+        render::print("lightcuts-daylight " + render::program_version() + "\n");
+    }
+    if (options.action != Options::Action::trace && options.action != Options::Action::year) return done;
+    const int threads = options.threads > 0 ? options.threads : tbb::this_task_arena::max_concurrency();
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+    tbb::task_arena arena(threads);
+    return arena.execute([&] { return options.action == Options::Action::trace ? trace(options) : year(options); });
+}
+
+ExitStatus fail(ExitStatus status, const std::string& message) {
+    say(message);
+    return status;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    render::guard_standard_streams();
+    render::watch_signals("lightcuts-daylight");
+    render::watch_termination("lightcuts-daylight");
+    try {
+        return run(parse_options(argc, argv));
+    } catch (const render::usage_error& e) {
+        return fail(bad_command_line, std::string(e.what()) + " (--help lists the options)");
+    } catch (const std::bad_alloc&) {
+        return fail(bad_input, render::memory_shortage());
+    } catch (const std::exception& e) { return fail(bad_input, render::explanation(e)); }
+}

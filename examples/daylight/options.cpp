@@ -1,0 +1,210 @@
+#include "options.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <functional>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include <render/io/escape.hpp>
+#include <render/rays/ray_tracer.hpp>
+
+#include "year_files.hpp"
+
+namespace daylighting {
+namespace {
+
+using render::usage_error;
+
+[[noreturn]] void refuse(const std::string& option, const std::string& value, const std::string& wanted) {
+    throw usage_error(option + " " + value + ": expected " + wanted);
+}
+
+/// All of `text` as a finite number.
+template <class Number>
+std::optional<Number> to_number(std::string_view text) {
+    Number value{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+    if constexpr (std::is_floating_point_v<Number>) {
+        if (!std::isfinite(value)) return std::nullopt;
+    }
+    return value;
+}
+
+template <class Number>
+Number number_in(const std::string& option, const std::string& text, Number lowest, Number highest,
+                 const std::string& wanted) {
+    const auto value = to_number<Number>(text);
+    if (!value || *value < lowest || *value > highest) refuse(option, text, wanted);
+    return *value;
+}
+
+/// X,Y,Z,X,Y,Z
+void set_grid(LevelGrid& grid, const std::string& text) {
+    double numbers[6] = {};
+    std::string_view rest = text;
+    for (int i = 0; i < 6; ++i) {
+        const std::size_t comma = rest.find(',');
+        const auto value = to_number<double>(rest.substr(0, comma));
+        if (!value || (comma == std::string_view::npos) != (i == 5)) {
+            refuse("--grid", text, "two opposite corners X,Y,Z,X,Y,Z");
+        }
+        numbers[i] = *value;
+        if (i < 5) rest.remove_prefix(comma + 1);
+    }
+    grid.corner = {numbers[0], numbers[1], numbers[2]};
+    grid.opposite = {numbers[3], numbers[4], numbers[5]};
+}
+
+void set_occupancy(Occupancy& occupancy, const std::string& text) {
+    const std::size_t dash = text.find('-');
+    const std::string_view all = text;
+    const auto from = to_number<int>(all.substr(0, dash));
+    const auto to = dash == std::string::npos ? std::nullopt : to_number<int>(all.substr(dash + 1));
+    if (!from || !to || *from < 0 || *to > 24 || *from >= *to) {
+        refuse("--hours", text, "FROM-TO in whole hours of the day, such as 8-18");
+    }
+    occupancy = {*from, *to};
+}
+
+/// Options of one subcommand.
+class Words {
+public:
+    explicit Words(CLI::App& app) : app_(app) {}
+
+    CLI::Option* text(const std::string& names, const std::string& type, const std::string& help,
+                      std::function<void(const std::string&)> set) {
+        return app_.add_option_function<std::string>(names, std::move(set), help)->type_name(type);
+    }
+    CLI::Option* file(const std::string& names, const std::string& help, std::filesystem::path& path) {
+        const std::string name = names.substr(names.find("--"));
+        return text(names, "FILE", help, [name, &path](const std::string& s) {
+            if (s.empty() || !std::filesystem::path(s).has_filename()) refuse(name, "'" + s + "'", "a file name");
+            path = s;
+        });
+    }
+
+private:
+    CLI::App& app_;
+};
+
+void add_common(CLI::App& app, Options& options) {
+    Words words(app);
+    words.text("--threads", "N", "threads (all)", [&](const std::string& s) {
+        options.threads = number_in<int>("--threads", s, 1, 4096, "a whole number from 1 to 4096");
+    });
+    app.add_flag("--quiet", options.quiet, "print nothing but errors");
+}
+
+void add_trace(CLI::App& app, Options& options, LevelGrid& grid, bool& has_grid, bool& has_spacing) {
+    Words words(app);
+    app.add_option("SCENE", options.scene, "glTF 2.0 (.gltf, .glb), OBJ, or builtin:NAME")->required();
+    words.file("-o,--output", "what the sensors see, for `year`", options.output)->required();
+    words.file("--sensors", "lines x y z dx dy dz", options.sensors);
+    words.text("--grid", "X,Y,Z,X,Y,Z", "opposite corners of a level grid of sensors that look up",
+               [&](const std::string& s) {
+                   set_grid(grid, s);
+                   has_grid = true;
+               });
+    words.text("--spacing", "S", "width of the grid's cells (0.5)", [&](const std::string& s) {
+        grid.spacing = number_in("--spacing", s, 1e-6, 1e6, "a number from 1e-6 to 1e6");
+        has_spacing = true;
+    });
+    words.text("--up", "y|z", "the scene's axis that points up; north is -z, or y (y)", [&](const std::string& s) {
+        if (s != "y" && s != "z") refuse("--up", s, "y or z");
+        options.up = s == "y" ? UpAxis::y : UpAxis::z;
+    });
+    words.text("--directions", "N", "spread over the sphere (32768)", [&](const std::string& s) {
+        options.directions = number_in<std::size_t>("--directions", s, 64, 1 << 20,
+                                                    "a whole number from 64 to 1048576");
+    });
+    words.text("--error", "R", "L2 error of what a sensor sees, as a share of it (0.1)", [&](const std::string& s) {
+        options.error = number_in("--error", s, 0.0, 1.0, "a number from 0 to 1");
+    });
+    words.text("--isa", "NAME", "instruction set of the ray tracer (the best)", [&](const std::string& s) {
+        bool is_known = false;
+        for (const std::string& name : render::isa_names()) is_known = is_known || name == s;
+        if (!is_known) refuse("--isa", s, "one of " + render::listed(render::isa_names()));
+        options.isa = s;
+    });
+    app.add_flag("--resume", options.resume, "go on with the interrupted run that --output names");
+    add_common(app, options);
+}
+
+void add_year(CLI::App& app, Options& options) {
+    Words words(app);
+    words.file("TRACED,--traced", "a file of `trace`", options.visibility)->required();
+    words.file("--weather", "EnergyPlus weather file (.epw)", options.weather)->required();
+    words.file("-o,--output", "CSV of illuminance, an hour a line", options.output);
+    words.file("--matrix", "the same for Radiance, a sensor a line", options.matrix);
+    words.file("--annual", "CSV of a year's figures, a sensor a line", options.annual);
+    words.file("--picture", "PNG of a grid in false colors", options.picture);
+    words.text("--figure", "NAME", "that it shows: " + render::listed(figure_names()) + " (autonomy)",
+               [&](const std::string& s) {
+                   bool is_known = false;
+                   for (const std::string& name : figure_names()) is_known = is_known || name == s;
+                   if (!is_known) refuse("--figure", s, "one of " + render::listed(figure_names()));
+                   options.figure = s;
+               });
+    words.text("--north", "DEG", "by which the scene's north is turned from true north towards the east (0)",
+               [&](const std::string& s) {
+                   options.turned = number_in("--north", s, -360.0, 360.0, "degrees from -360 to 360");
+               });
+    words.text("--ground", "ALBEDO", "of what is below the horizon (0.2)", [&](const std::string& s) {
+        options.ground = number_in("--ground", s, 0.0, 1.0, "a number from 0 to 1");
+    });
+    words.text("--hours", "FROM-TO", "of the day in which the room is used (8-18)",
+               [&](const std::string& s) { set_occupancy(options.occupancy, s); });
+    words.text("--target", "LUX", "of the daylight autonomy (300)", [&](const std::string& s) {
+        options.target = number_in("--target", s, 0.0, 1e6, "a number from 0 to 1e6");
+    });
+    add_common(app, options);
+}
+
+}  // namespace
+
+Options parse_options(int argc, const char* const* argv) {
+    Options options;
+    LevelGrid grid;
+    bool version = false, has_grid = false, has_spacing = false;
+    CLI::App app("Daylight on sensors in every hour of a year.", "lightcuts-daylight");
+    app.set_help_flag("-h,--help", "print this text");
+    app.add_flag("--version", version, "print the version");
+    CLI::App* trace = app.add_subcommand("trace", "find what sensors see of the sky; once a scene");
+    CLI::App* year = app.add_subcommand("year", "light it by a year's weather");
+    app.require_subcommand(0, 1);
+    add_trace(*trace, options, grid, has_grid, has_spacing);
+    add_year(*year, options);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::CallForHelp&) {
+        options.action = Options::Action::help;
+        options.help = (trace->parsed() ? trace : year->parsed() ? year : &app)->help();
+        return options;
+    } catch (const CLI::ParseError& e) { throw usage_error(render::one_line(e.what())); }
+    if (version) {
+        options.action = Options::Action::version;
+    } else if (trace->parsed()) {
+        options.action = Options::Action::trace;
+        if (has_grid == !options.sensors.empty()) throw usage_error("give either --sensors or --grid");
+        if (has_spacing && !has_grid) throw usage_error("--spacing needs --grid: sensors of a file have none");
+        if (has_grid) options.grid = grid;
+    } else if (year->parsed()) {
+        options.action = Options::Action::year;
+        if (options.output.empty() && options.matrix.empty() && options.annual.empty() && options.picture.empty()) {
+            throw usage_error("nothing is to be written: give --output, --matrix, --annual or --picture");
+        }
+        if (year->get_option("--figure")->count() > 0 && options.picture.empty()) {
+            throw usage_error("--figure needs --picture");
+        }
+    } else {
+        throw usage_error("give what to do: trace or year");
+    }
+    return options;
+}
+
+}  // namespace daylighting

@@ -1,0 +1,162 @@
+#include "visibility_file.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <string_view>
+#include <utility>
+
+#include <lightcuts/core/invalid_input.hpp>
+#include <lightcuts/core/vector.hpp>
+#include <lightcuts/piecewise/tree_file.hpp>
+#include <render/io/content_hash.hpp>
+
+namespace daylighting {
+namespace {
+
+constexpr std::string_view magic = "lightcuts-daylight: what sensors see, format 1\n";
+constexpr std::string_view magic_of_any_format = magic.substr(0, magic.size() - 2);
+constexpr std::uint64_t byte_order = 0x0102030405060708u;
+/// Of trees whose nodes have a direction; those that are no leaf have none.
+constexpr std::uint64_t direction_tag = 0x6461796c69676874u;
+
+/// After `magic`.
+struct Header {
+    std::uint64_t byte_order = daylighting::byte_order;
+    std::array<std::uint64_t, 4> sizes{};  ///< of the tree, the sensors, the cuts of skies and those of suns
+    std::uint64_t check = 0;               ///< of the sizes and the sensors
+};
+
+struct SensorHeader {
+    std::uint32_t columns, rows, up, unused;
+};
+
+/// Without padding.
+struct SensorRecord {
+    double position[3];
+    float normal[3];
+    std::uint32_t unused;
+};
+static_assert(sizeof(SensorRecord) == 40);
+
+template <class T>
+void append(std::vector<std::byte>& to, const T* data, std::size_t count) {
+    const std::size_t begin = to.size();
+    to.resize(begin + count * sizeof(T));
+    std::memcpy(to.data() + begin, data, count * sizeof(T));
+}
+
+std::vector<std::byte> bytes_of(const SensorSet& set) {
+    std::vector<std::byte> bytes;
+    const SensorHeader header{set.columns, set.rows, static_cast<std::uint32_t>(set.up), 0};
+    append(bytes, &header, 1);
+    for (const Sensor& s : set.sensors) {
+        const SensorRecord record{{s.position.x, s.position.y, s.position.z}, {s.normal.x, s.normal.y, s.normal.z}, 0};
+        append(bytes, &record, 1);
+    }
+    return bytes;
+}
+
+std::uint64_t check_of(const Header& header, std::span<const std::byte> sensors) {
+    render::ContentHash hash;
+    for (const std::uint64_t size : header.sizes) hash.add(size);
+    return hash.add_bytes(sensors.data(), sensors.size()).value();
+}
+
+[[noreturn]] void refuse(const std::string& problem) { throw lightcuts::invalid_input(problem); }
+
+SensorSet sensors_of(std::span<const std::byte> bytes) {
+    SensorHeader header{};
+    if (bytes.size() < sizeof header || (bytes.size() - sizeof header) % sizeof(SensorRecord) != 0) {
+        refuse("has no list of sensors");
+    }
+    std::memcpy(&header, bytes.data(), sizeof header);
+    SensorSet set;
+    set.columns = header.columns;
+    set.rows = header.rows;
+    set.up = header.up == 0 ? UpAxis::y : UpAxis::z;
+    for (std::size_t at = sizeof header; at < bytes.size(); at += sizeof(SensorRecord)) {
+        SensorRecord r{};
+        std::memcpy(&r, bytes.data() + at, sizeof r);
+        set.sensors.push_back({{r.position[0], r.position[1], r.position[2]}, {r.normal[0], r.normal[1], r.normal[2]}});
+    }
+    if (header.up > 1 || set.sensors.empty() ||
+        (header.columns != 0 && std::uint64_t{header.columns} * header.rows != set.sensors.size())) {
+        refuse("has a list of sensors that is damaged");
+    }
+    return set;
+}
+
+DirectionTree directions_of(std::span<const std::byte> bytes) {
+    lightcuts::SavedTree<glm::vec3> saved = lightcuts::read_tree<glm::vec3>(bytes, direction_tag);
+    DirectionTree result;
+    result.tree = std::move(saved.tree);
+    if (result.tree.item_count() < 2 || !result.tree.is_binary()) refuse("has no tree of directions");
+    for (std::uint32_t n = 0; n < result.tree.size(); ++n) {
+        if (!result.tree.is_leaf(n)) continue;
+        const bool in_order = result.tree.item(n) == result.directions.size();
+        if (!in_order || !lightcuts::is_finite(saved.summaries[n])) refuse("has directions that are damaged");
+        result.directions.push_back(saved.summaries[n]);
+    }
+    return result;
+}
+
+}  // namespace
+
+std::vector<std::byte> visibility_file(const DirectionTree& directions, const SensorSet& sensors,
+                                       const lightcuts::CutFileWriter& sky, const lightcuts::CutFileWriter& sun) {
+    std::vector<glm::vec3> of_nodes(directions.tree.size(), glm::vec3(0.0f));
+    for (std::uint32_t n = 0; n < directions.tree.size(); ++n) {
+        if (directions.tree.is_leaf(n)) of_nodes[n] = directions.directions[directions.tree.item(n)];
+    }
+    const std::array<std::vector<std::byte>, 4> parts = {
+        lightcuts::tree_file(directions.tree, std::span<const glm::vec3>(of_nodes), direction_tag), bytes_of(sensors),
+        sky.bytes(), sun.bytes()};
+    Header header;
+    for (std::size_t i = 0; i < parts.size(); ++i) header.sizes[i] = parts[i].size();
+    header.check = check_of(header, parts[1]);
+    std::vector<std::byte> file;
+    append(file, magic.data(), magic.size());
+    append(file, &header, 1);
+    for (const std::vector<std::byte>& part : parts) append(file, part.data(), part.size());
+    return file;
+}
+
+VisibilityFile::VisibilityFile(const std::filesystem::path& path) : path_(path), file_(path) {
+    try {
+        const std::span<const std::byte> bytes = file_.bytes();
+        const std::string_view start(reinterpret_cast<const char*>(bytes.data()), std::min(bytes.size(), magic.size()));
+        if (!start.starts_with(magic_of_any_format)) refuse("is no file of lightcuts-daylight trace");
+        if (start != magic) refuse("is of another version of this program; trace it anew");
+        Header header;
+        if (bytes.size() < magic.size() + sizeof header) refuse("is cut short; trace it anew");
+        std::memcpy(&header, bytes.data() + magic.size(), sizeof header);
+        if (header.byte_order != byte_order) refuse("is of a machine of another byte order; trace it anew");
+        std::array<std::span<const std::byte>, 4> parts;
+        std::span<const std::byte> rest = bytes.subspan(magic.size() + sizeof header);
+        for (std::size_t i = 0; i < parts.size(); ++i) {
+            if (header.sizes[i] > rest.size()) refuse("is cut short, or damaged; trace it anew");
+            parts[i] = rest.first(static_cast<std::size_t>(header.sizes[i]));
+            rest = rest.subspan(parts[i].size());
+        }
+        if (!rest.empty()) refuse("has bytes after its end; trace it anew");
+        if (check_of(header, parts[1]) != header.check) refuse("is damaged; trace it anew");
+        directions_ = directions_of(parts[0]);
+        sensors_ = sensors_of(parts[1]);
+        sky_.emplace(parts[2], directions_.tree);
+        sun_.emplace(parts[3], directions_.tree);
+        if (sky_->size() != sensors_.sensors.size() || sun_->size() != sensors_.sensors.size()) {
+            refuse("has not two cuts each sensor");
+        }
+    } catch (const lightcuts::invalid_input& e) { throw lightcuts::invalid_input(path.string() + ": " + e.what()); }
+}
+
+void VisibilityFile::read(const lightcuts::CutFile& cuts, std::size_t sensor,
+                          lightcuts::PiecewiseConstant<float>& out) const {
+    try {
+        cuts.read(sensor, out);
+    } catch (const lightcuts::invalid_input& e) { throw lightcuts::invalid_input(path_.string() + ": " + e.what()); }
+}
+
+}  // namespace daylighting
