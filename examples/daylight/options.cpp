@@ -122,7 +122,7 @@ void add_trace(CLI::App& app, Options& options, LevelGrid& grid, bool& has_grid,
         options.directions = number_in<std::size_t>("--directions", s, 64, 1 << 20,
                                                     "a whole number from 64 to 1048576");
     });
-    words.text("--error", "R", "L2 error of what a sensor sees, as a share of it (0.1)", [&](const std::string& s) {
+    words.text("--error", "R", "L2 error of what a sensor sees, as a share of it (0.05)", [&](const std::string& s) {
         options.error = number_in("--error", s, 0.0, 1.0, "a number from 0 to 1");
     });
     words.text("--isa", "NAME", "instruction set of the ray tracer (the best)", [&](const std::string& s) {

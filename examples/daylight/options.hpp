@@ -29,7 +29,7 @@ struct Options {
     std::optional<LevelGrid> grid;
     UpAxis up = UpAxis::y;
     std::size_t directions = 32768;
-    double error = 0.1;
+    double error = 0.05;
     bool resume = false;
     std::string isa;
 

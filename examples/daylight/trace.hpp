@@ -16,7 +16,7 @@ namespace daylighting {
 
 /// How sensors are traced.
 struct TraceSettings {
-    double error = 0.1;                  ///< of sky cuts, see CutMaker
+    double error = 0.05;                 ///< of sky cuts, see CutMaker
     std::filesystem::path unfinished{};  ///< where finished sensors are kept until all are; empty: nowhere
     bool resume = false;                 ///< go on with those
     bool shows_progress = false;         ///< on a terminal

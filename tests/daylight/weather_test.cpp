@@ -59,7 +59,7 @@ TEST_F(Epw, is_read) {
     EXPECT_EQ(weather.place.time_zone, 1.0);
     ASSERT_EQ(weather.hours.size(), 7u * 24u);
     const WeatherHour& noon = weather.hours[12];
-    EXPECT_EQ(noon.month, 6);
+    EXPECT_EQ(noon.month, 3);
     EXPECT_EQ(noon.day, 18);
     EXPECT_EQ(noon.hour, 13);
     EXPECT_EQ(noon.middle().hour, 12.5);
@@ -77,13 +77,13 @@ TEST_F(Epw, with_hours_missing_or_doubled_is_refused) {
     std::vector<std::string> all = lines(text());
     std::vector<std::string> fewer = all;
     fewer.erase(fewer.begin() + 20);
-    EXPECT_THAT(refused(joined(fewer)), HasSubstr(":21: hour 14 of 6/18 stands where hour 13 of 6/18 is expected"));
+    EXPECT_THAT(refused(joined(fewer)), HasSubstr(":21: hour 14 of 3/18 stands where hour 13 of 3/18 is expected"));
     std::vector<std::string> more = all;
     more.insert(more.begin() + 20, all[20]);
-    EXPECT_THAT(refused(joined(more)), HasSubstr(":22: hour 13 of 6/18 stands where hour 14 of 6/18 is expected"));
+    EXPECT_THAT(refused(joined(more)), HasSubstr(":22: hour 13 of 3/18 stands where hour 14 of 3/18 is expected"));
     std::vector<std::string> cut = all;
     cut.resize(40);
-    EXPECT_THAT(refused(joined(cut)), HasSubstr(":41: the file ends before hour 9 of 6/19"));
+    EXPECT_THAT(refused(joined(cut)), HasSubstr(":41: the file ends before hour 9 of 3/19"));
     std::vector<std::string> longer = all;
     longer.push_back(all.back());
     EXPECT_THAT(refused(joined(longer)), HasSubstr("after the end of the data period"));
@@ -121,9 +121,9 @@ TEST_F(Epw, with_a_bad_header_is_refused) {
     EXPECT_THAT(refused("something else\n"), HasSubstr("there is no LOCATION"));
     EXPECT_THAT(refused(all[0] + "\n"), HasSubstr("there is no line DATA PERIODS"));
     const std::vector<std::pair<std::string, std::string>> periods = {
-        {"DATA PERIODS,2,1,Data,Sunday,6/18,6/24", ":8: only one data period"},
-        {"DATA PERIODS,1,4,Data,Sunday,6/18,6/24", ":8: only one record an hour"},
-        {"DATA PERIODS,1,1,Data,Sunday,13/18,6/24", ":8: the data period's '13/18' is no day"},
+        {"DATA PERIODS,2,1,Data,Sunday,3/18,3/24", ":8: only one data period"},
+        {"DATA PERIODS,1,4,Data,Sunday,3/18,3/24", ":8: only one record an hour"},
+        {"DATA PERIODS,1,1,Data,Sunday,13/18,3/24", ":8: the data period's '13/18' is no day"},
         {"DATA PERIODS,1,1", ":8: the data period's '' is no day"}};
     for (const auto& [line, says] : periods) {
         std::vector<std::string> other = all;
