@@ -185,7 +185,7 @@ nlohmann::json errors(const SitePlan& place, const DirectionTree& directions, co
         result["patches"].push_back({{"name", name}, {is_sky ? "sky" : "all", error}});
     }
     for (std::size_t e = 0; e < cut_errors.size(); ++e) {
-        const CutMatrix matrix(site.sensors, [&](std::size_t i, auto& out) { out = cuts[e][i].sky; });
+        const CutMatrix matrix(site.sensors.sensors, [&](std::size_t i, auto& out) { out = cuts[e][i].sky; });
         Illuminances lux = sky_light(matrix, directions, hours, setting);
         ErrorSum of_sky, with_sun;
         std::size_t pieces = 0, sun_pieces = 0, stored = 0;
@@ -275,7 +275,7 @@ nlohmann::json times(const SitePlan& place, const DirectionTree& directions, con
                 place.name.c_str(), count, error, whole, ray_seconds, whole / ray_seconds);
 
     const std::vector<LitHour> hours = lit_hours(weather, directions, setting);
-    const CutMatrix matrix(site.sensors, [&](std::size_t i, auto& out) { out = cuts[i].sky; });
+    const CutMatrix matrix(site.sensors.sensors, [&](std::size_t i, auto& out) { out = cuts[i].sky; });
     std::vector<double> skies, years, suns, denses;
     const FixedPatches fine(directions, setting, 4);
     std::vector<float> rows, columns;

@@ -20,6 +20,7 @@
 #include <render/rays/ray_scene.hpp>
 
 #include "annual.hpp"
+#include "bounce.hpp"
 #include "options.hpp"
 #include "trace.hpp"
 #include "visibility_file.hpp"
@@ -79,24 +80,30 @@ ExitStatus trace(const Options& options) {
     require_usable({options.output}, scene.files);
     const render::RayScene rays(scene, render::RayTracer(options.isa));
     const DirectionTree directions = make_direction_tree(options.directions);
+    Bounce bounce;
+    if (options.bounce) bounce = find_bounce(scene, rays, sensors.sensors, {.spacing = *options.bounce});
+    std::vector<Sensor> all = sensors.sensors;
+    all.insert(all.end(), bounce.points.begin(), bounce.points.end());
     render::defer_signals();
     const Trace result = trace_sensors(
-        scene, rays, directions, sensors,
+        scene, rays, directions, all,
         {.error = options.error, .unfinished = unfinished, .resume = options.resume, .shows_progress = !options.quiet});
-    const std::size_t count = sensors.sensors.size();
+    const std::size_t count = all.size();
     if (result.finished < count) {
         say(result.finished == 0 ? std::string("interrupted before anything was finished; nothing was written")
                                  : "interrupted; " + std::to_string(result.finished) + " of " + std::to_string(count) +
                                        " sensors are in " + unfinished.string() + ", and --resume goes on with them");
         return stopped;
     }
-    const std::vector<std::byte> file = visibility_file(directions, sensors, result.sky, result.sun);
+    const std::vector<std::byte> file = visibility_file(directions, sensors, bounce, result.sky, result.sun);
     render::write_file(options.output, {reinterpret_cast<const char*>(file.data()), file.size()});
     std::error_code ignored;
     std::filesystem::remove(unfinished, ignored);
     if (!options.quiet) {
         const auto n = static_cast<double>(count);
-        say(std::to_string(count) + " sensors, " + std::to_string(directions.size()) +
+        say(std::to_string(sensors.sensors.size()) + " sensors, " +
+            (options.bounce ? std::to_string(bounce.points.size()) + " points that reflect light, " : std::string()) +
+            std::to_string(directions.size()) +
             " directions; pieces a sensor: " + text_of("%.0f", static_cast<double>(result.sky_pieces) / n) +
             " for skies, " + text_of("%.0f", static_cast<double>(result.sun_pieces) / n) + " for the sun; " +
             text_of("%.1f", static_cast<double>(file.size()) / 1e6) + " MB, " + text_of("%.1f", watch.seconds()) +
@@ -122,19 +129,25 @@ ExitStatus year(const Options& options) {
     }
     const Setting setting{.up = sensors.up, .turned = options.turned, .ground_albedo = options.ground};
     const std::vector<LitHour> hours = lit_hours(weather, traced.directions(), setting);
-    const CutMatrix cuts(sensors, [&](std::size_t i, auto& out) { traced.read_sky(i, out); });
+    const std::vector<Sensor> all = traced.all();
+    const CutMatrix cuts(all, [&](std::size_t i, auto& out) { traced.read_sky(i, out); });
     Illuminances lux;
     {
         render::Progress progress((hours.size() + block_hours - 1) / block_hours, !options.quiet);
         lux = sky_light(cuts, traced.directions(), hours, setting, [&] { progress.step(); });
     }
     const SunList suns(hours);
-    std::vector<AnnualFigures> figures(sensors.sensors.size());
-    tbb::parallel_for(std::size_t{0}, figures.size(), [&](std::size_t i) {
+    std::vector<double> sun_hours(all.size());
+    tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) {
         lightcuts::PiecewiseConstant<float> sun;
         traced.read_sun(i, sun);
-        const double sun_hours = suns.add(sun, sensors.sensors[i].normal, weather, lux.of(i));
-        figures[i] = annual_figures(weather, hours, lux.of(i), options.occupancy, options.target, sun_hours);
+        sun_hours[i] = suns.add(sun, all[i].normal, weather, lux.of(i));
+    });
+    add_bounce(traced.bounce(), lux);
+    lux.drop_beyond(sensors.sensors.size());
+    std::vector<AnnualFigures> figures(sensors.sensors.size());
+    tbb::parallel_for(std::size_t{0}, figures.size(), [&](std::size_t i) {
+        figures[i] = annual_figures(weather, hours, lux.of(i), options.occupancy, options.target, sun_hours[i]);
     });
     const double seconds = watch.seconds();
     if (!options.output.empty()) write_hourly(options.output, weather, hours, lux);

@@ -125,6 +125,10 @@ void add_trace(CLI::App& app, Options& options, LevelGrid& grid, bool& has_grid,
     words.text("--error", "R", "L2 error of what a sensor sees, as a share of it (0.05)", [&](const std::string& s) {
         options.error = number_in("--error", s, 0.0, 1.0, "a number from 0 to 1");
     });
+    words.text("--bounce", "S", "light that surfaces reflect once, by points about S apart (none)",
+               [&](const std::string& s) {
+                   options.bounce = number_in("--bounce", s, 1e-6, 1e6, "a number from 1e-6 to 1e6");
+               });
     words.text("--isa", "NAME", "instruction set of the ray tracer (the best)", [&](const std::string& s) {
         bool is_known = false;
         for (const std::string& name : render::isa_names()) is_known = is_known || name == s;

@@ -30,6 +30,7 @@ struct Options {
     UpAxis up = UpAxis::y;
     std::size_t directions = 32768;
     double error = 0.05;
+    std::optional<double> bounce;  ///< spacing of points that reflect light; empty: none do
     bool resume = false;
     std::string isa;
 

@@ -58,7 +58,7 @@ void collect(const Chunk& chunk, Trace& trace) {
 
 /// Of all that the cuts depend on.
 std::uint64_t fingerprint_of(const render::Scene& scene, const render::RayScene& rays, const DirectionTree& directions,
-                             const SensorSet& sensors, const TraceSettings& settings) {
+                             std::span<const Sensor> sensors, const TraceSettings& settings) {
     render::ContentHash hash;
     hash.add(render::program_build()).add(rays.tracer().isa()).add(settings.error);
     for (int c = 0; c < 3; ++c) hash.add(scene.origin[c]);
@@ -70,7 +70,7 @@ std::uint64_t fingerprint_of(const render::Scene& scene, const render::RayScene&
     }
     for (const render::Texture& t : scene.textures) hash.add(t.width).add(t.texels);
     hash.add(directions.directions);
-    for (const Sensor& s : sensors.sensors) {
+    for (const Sensor& s : sensors) {
         for (int c = 0; c < 3; ++c) hash.add(s.position[c]);
         hash.add(s.normal);
     }
@@ -91,8 +91,8 @@ Trace::Trace(const DirectionTree& directions)
     : sky(directions.tree, cut_encoding), sun(directions.tree, cut_encoding) {}
 
 Trace trace_sensors(const render::Scene& scene, const render::RayScene& rays, const DirectionTree& directions,
-                    const SensorSet& sensors, const TraceSettings& settings) {
-    const std::size_t count = sensors.sensors.size(), chunk_count = (count + chunk_sensors - 1) / chunk_sensors;
+                    std::span<const Sensor> sensors, const TraceSettings& settings) {
+    const std::size_t count = sensors.size(), chunk_count = (count + chunk_sensors - 1) / chunk_sensors;
     std::vector<std::optional<Chunk>> chunks(chunk_count);
     Trace trace(directions);
     const auto size_of = [&](std::size_t c) { return std::min(count, (c + 1) * chunk_sensors) - c * chunk_sensors; };
@@ -117,7 +117,7 @@ Trace trace_sensors(const render::Scene& scene, const render::RayScene& rays, co
             Workspace& work = workspaces.local();
             Chunk chunk;
             for (std::size_t i = c * chunk_sensors; i < c * chunk_sensors + size_of(c); ++i) {
-                const Sensor& sensor = sensors.sensors[i];
+                const Sensor& sensor = sensors[i];
                 if (!work.facing || work.facing->normal() != sensor.normal) {
                     work.facing.emplace(directions, sensor.normal);
                 }

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <optional>
+#include <span>
 
 #include <lightcuts/piecewise/cut_file.hpp>
 #include <render/rays/ray_scene.hpp>
@@ -36,6 +36,6 @@ struct Trace {
 /// depend on the number of threads, nor on what was resumed.
 /// throws: invalid_input if what is unfinished cannot be kept, or resumed.
 Trace trace_sensors(const render::Scene& scene, const render::RayScene& rays, const DirectionTree& directions,
-                    const SensorSet& sensors, const TraceSettings& settings);
+                    std::span<const Sensor> sensors, const TraceSettings& settings);
 
 }  // namespace daylighting

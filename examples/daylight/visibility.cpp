@@ -5,15 +5,17 @@
 
 namespace daylighting {
 
-VisibilityTracer::VisibilityTracer(const render::Scene& scene, const render::RayScene& rays,
-                                   const DirectionTree& directions)
-    : scene_(scene), rays_(rays), directions_(directions) {
+float sensor_lift(const render::Scene& scene) {
     float largest = 0.0f;
     for (const glm::vec3& p : scene.positions) {
         largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
     }
-    lift_ = 0x1p-20f * largest;
+    return 0x1p-20f * largest;
 }
+
+VisibilityTracer::VisibilityTracer(const render::Scene& scene, const render::RayScene& rays,
+                                   const DirectionTree& directions)
+    : scene_(scene), rays_(rays), directions_(directions), lift_(sensor_lift(scene)) {}
 
 void VisibilityTracer::trace(const Sensor& sensor, const Facing& facing, std::vector<float>& visibility,
                              Scratch& scratch) const {

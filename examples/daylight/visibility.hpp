@@ -12,6 +12,9 @@
 
 namespace daylighting {
 
+/// By how much, along a sensor's normal, rays start above what it may lie on. cost: O(vertices)
+float sensor_lift(const render::Scene& scene);
+
 /// Asks the ray tracer how much light comes to a sensor from each direction. threads: may be asked by many at once,
 /// each with a scratch.
 class VisibilityTracer {
@@ -32,7 +35,7 @@ private:
     const render::Scene& scene_;
     const render::RayScene& rays_;
     const DirectionTree& directions_;
-    float lift_;  ///< by how much rays start above what a sensor may lie on
+    float lift_;
 };
 
 }  // namespace daylighting

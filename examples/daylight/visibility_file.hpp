@@ -10,6 +10,7 @@
 #include <lightcuts/piecewise/cut_file.hpp>
 #include <lightcuts/piecewise/mapped_file.hpp>
 
+#include "bounce.hpp"
 #include "direction_tree.hpp"
 #include "sensors.hpp"
 
@@ -18,9 +19,10 @@ namespace daylighting {
 /// How the cuts of a file are encoded.
 inline constexpr lightcuts::CutEncoding cut_encoding{.bits = lightcuts::ValueBits::eight, .deviations = false};
 
-/// The bytes of a file of what sensors see: the tree of directions, the sensors, and of each its two cuts. `sky` and
-/// `sun` have a cut each sensor, of the tree of `directions`.
-std::vector<std::byte> visibility_file(const DirectionTree& directions, const SensorSet& sensors,
+/// The bytes of a file of what sensors see: the tree of directions, the sensors, the points that reflect light to them,
+/// if any, and of each sensor and then each point its two cuts. `sky` and `sun` have these, of the tree of
+/// `directions`.
+std::vector<std::byte> visibility_file(const DirectionTree& directions, const SensorSet& sensors, const Bounce& bounce,
                                        const lightcuts::CutFileWriter& sky, const lightcuts::CutFileWriter& sun);
 
 /// Such a file, mapped: cuts are read as they are asked for. threads: by many at once.
@@ -34,8 +36,12 @@ public:
 
     const DirectionTree& directions() const { return directions_; }
     const SensorSet& sensors() const { return sensors_; }
+    /// Without links if no light bounces.
+    const Bounce& bounce() const { return bounce_; }
+    /// The sensors and then the points.
+    std::vector<Sensor> all() const;
 
-    /// throws: invalid_input naming the file and the cut if it is damaged.
+    /// Of one of `all()`. throws: invalid_input naming the file and the cut if it is damaged.
     void read_sky(std::size_t sensor, lightcuts::PiecewiseConstant<float>& out) const { read(*sky_, sensor, out); }
     void read_sun(std::size_t sensor, lightcuts::PiecewiseConstant<float>& out) const { read(*sun_, sensor, out); }
 
@@ -46,6 +52,7 @@ private:
     lightcuts::MappedFile file_;
     DirectionTree directions_;
     SensorSet sensors_;
+    Bounce bounce_;
     std::optional<lightcuts::CutFile> sky_, sun_;  ///< refer to the file and to the tree
 };
 

@@ -16,13 +16,13 @@ constexpr double least_sunshine = 120.0;  // W/m^2
 
 }  // namespace
 
-CutMatrix::CutMatrix(const SensorSet& sensors,
+CutMatrix::CutMatrix(std::span<const Sensor> sensors,
                      const std::function<void(std::size_t, lightcuts::PiecewiseConstant<float>&)>& read) {
     std::map<std::array<float, 3>, std::size_t> known;
     lightcuts::PiecewiseConstant<float> cut;
     begins_.push_back(0);
-    for (std::size_t i = 0; i < sensors.sensors.size(); ++i) {
-        const glm::vec3& n = sensors.sensors[i].normal;
+    for (std::size_t i = 0; i < sensors.size(); ++i) {
+        const glm::vec3& n = sensors[i].normal;
         const auto [at, is_new] = known.try_emplace({n.x, n.y, n.z}, groups_.size());
         if (is_new) groups_.push_back({n, {}});
         groups_[at->second].sensors.push_back(static_cast<std::uint32_t>(i));

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include <lightcuts/piecewise/piecewise_constant.hpp>
@@ -15,7 +16,7 @@ namespace daylighting {
 class CutMatrix {
 public:
     /// `read(i, out)`: makes `out` the sky cut of sensor i.
-    CutMatrix(const SensorSet& sensors,
+    CutMatrix(std::span<const Sensor> sensors,
               const std::function<void(std::size_t, lightcuts::PiecewiseConstant<float>&)>& read);
 
     /// The sensors of one normal.
@@ -43,6 +44,11 @@ struct Illuminances {
     std::size_t hours = 0;
     std::vector<float> lux;
 
+    /// Keeps the first sensors only.
+    void drop_beyond(std::size_t count) {
+        sensors = count;
+        lux.resize(count * hours);
+    }
     std::span<float> of(std::size_t sensor) { return std::span(lux).subspan(sensor * hours, hours); }
     std::span<const float> of(std::size_t sensor) const { return std::span(lux).subspan(sensor * hours, hours); }
 };

@@ -57,7 +57,7 @@ protected:
     }
 };
 
-constexpr const char* trace_grid = "trace shed.obj --grid -4,1,-4,4,1,4 --spacing 2 --directions 1024 -o a.cuts";
+const std::string trace_grid = "trace shed.obj --grid -4,1,-4,4,1,4 --spacing 2 --directions 1024 -o a.cuts";
 
 TEST_F(Program, traces_and_lights_a_year) {
     const Process::Result traced = run(trace_grid);
@@ -88,6 +88,28 @@ TEST_F(Program, is_quiet_if_asked_and_the_same_on_any_number_of_threads) {
     ASSERT_EQ(run("year one.cuts --weather week.epw -o 1.csv --quiet --threads 1").err, "");
     ASSERT_EQ(run("year one.cuts --weather week.epw -o 2.csv --quiet --threads 2").err, "");
     EXPECT_EQ(folder.read("1.csv"), folder.read("2.csv"));
+}
+
+TEST_F(Program, adds_light_that_bounces) {
+    const auto mean = [&](const std::string& options) {
+        EXPECT_EQ(run(trace_grid + options + " --quiet").status, 0);
+        EXPECT_EQ(run("year a.cuts --weather week.epw --annual a.csv --quiet").status, 0);
+        std::istringstream table(folder.read("a.csv"));
+        std::string line;
+        double sum = 0.0;
+        int count = -1;
+        for (; std::getline(table, line); ++count) {
+            if (count < 0) continue;
+            std::size_t at = 0;
+            for (int i = 0; i < 7; ++i) at = line.find(',', at) + 1;
+            sum += std::stod(line.substr(at));
+        }
+        EXPECT_EQ(count, 16);
+        return sum / count;
+    };
+    const double direct = mean(""), with_bounce = mean(" --bounce 0.5");
+    EXPECT_GT(with_bounce, 1.1 * direct);
+    EXPECT_LT(with_bounce, 3.0 * direct);
 }
 
 TEST_F(Program, says_what_it_is) {

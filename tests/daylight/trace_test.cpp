@@ -144,9 +144,9 @@ std::vector<std::byte> traced(Room& room, const SensorSet& sensors, const TraceS
     const render::RayScene rays(room.scene());
     tbb::task_arena arena(threads);
     return arena.execute([&] {
-        const Trace trace = trace_sensors(room.scene(), rays, directions(), sensors, settings);
+        const Trace trace = trace_sensors(room.scene(), rays, directions(), sensors.sensors, settings);
         EXPECT_EQ(trace.finished, sensors.sensors.size());
-        return visibility_file(directions(), sensors, trace.sky, trace.sun);
+        return visibility_file(directions(), sensors, {}, trace.sky, trace.sun);
     });
 }
 
@@ -178,7 +178,8 @@ TEST(Trace, that_is_resumed_gives_the_same_bytes) {
     // And what is resumed is not traced again.
     folder.write("x.resume", all);
     const render::RayScene rays(shed.scene());
-    const Trace again = trace_sensors(shed.scene(), rays, directions(), sensors, {.unfinished = path, .resume = true});
+    const Trace again = trace_sensors(shed.scene(), rays, directions(), sensors.sensors,
+                                      {.unfinished = path, .resume = true});
     EXPECT_EQ(again.resumed, sensors.sensors.size());
 }
 
@@ -190,7 +191,8 @@ TEST(Trace, does_not_resume_what_is_of_others) {
     traced(shed, sensors, {.unfinished = path});
     const render::RayScene rays(shed.scene());
     const auto resume = [&](double error) {
-        trace_sensors(shed.scene(), rays, directions(), sensors, {.error = error, .unfinished = path, .resume = true});
+        trace_sensors(shed.scene(), rays, directions(), sensors.sensors,
+                      {.error = error, .unfinished = path, .resume = true});
     };
     EXPECT_THAT(refusal([&] { resume(0.2); }), HasSubstr("leave --resume out"));
     sensors.sensors[3].position.x += 0.01;

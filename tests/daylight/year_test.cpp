@@ -40,7 +40,7 @@ struct Traced {
         }
     }
     CutMatrix matrix() const {
-        return CutMatrix(sensors, [this](std::size_t i, auto& out) { out = cuts[i].sky; });
+        return CutMatrix(sensors.sensors, [this](std::size_t i, auto& out) { out = cuts[i].sky; });
     }
 };
 
