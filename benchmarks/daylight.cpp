@@ -84,7 +84,8 @@ struct ErrorSum {
 
 constexpr std::array cut_errors = {0.5, 0.4, 0.3, 0.2, 0.1, 0.05};
 
-/// What is compared at some sensors and hours: light by all directions, by patches, and by cuts.
+/// What is compared at some sensors and hours: light by all directions, by patches, and by cuts. Besides, how far all
+/// are from where the sun is no direction of the tree but a ray to its center.
 nlohmann::json errors(const SitePlan& place, const DirectionTree& directions, const Weather& weather,
                       std::size_t step) {
     Site site(place, place.grid.spacing);
@@ -110,13 +111,13 @@ nlohmann::json errors(const SitePlan& place, const DirectionTree& directions, co
         }
     }
     // By all directions: first the skies, then with suns.
-    std::vector<std::vector<double>> sky(count, std::vector<double>(hours.size())), exact = sky;
+    std::vector<std::vector<double>> sky(count, std::vector<double>(hours.size())), exact = sky, by_rays = sky;
     const FixedPatches coarse(directions, setting, 1), fine(directions, setting, 4);
     struct Rival {
         const FixedPatches* patches;
         FixedPatches::Sun sun;
         std::vector<float> coefficients{}, columns{};
-        ErrorSum of_sky{}, with_sun{};
+        ErrorSum of_sky{}, with_sun{}, by_ray{};
     };
     std::vector<Rival> rivals;
     for (const FixedPatches* p : {&coarse, &fine}) {
@@ -149,19 +150,25 @@ nlohmann::json errors(const SitePlan& place, const DirectionTree& directions, co
             }
         }
     }
+    const float lift = sensor_lift(site.scene);
     for (std::size_t s = 0; s < count; ++s) {
         const glm::vec3 normal = site.sensors.sensors[s].normal;
         for (std::size_t h = 0; h < hours.size(); ++h) {
-            exact[s][h] = sky[s][h];
+            exact[s][h] = by_rays[s][h] = sky[s][h];
             const double cosine = static_cast<double>(glm::dot(normal, hours[h].towards_sun));
             if (!hours[h].has_sun() || !(cosine > 0.0)) continue;
             exact[s][h] += static_cast<double>(visibility[s][hours[h].sun_place]) * cosine *
                            hours[h].sky.direct_illuminance();
+            const Sensor& sensor = site.sensors.sensors[s];
+            const glm::vec3 from = glm::vec3(sensor.position - site.scene.origin) + lift * sensor.normal;
+            const glm::vec3 seen = site.rays.to_infinity(from, hours[h].towards_sun);
+            by_rays[s][h] += static_cast<double>(seen.r + seen.g + seen.b) / 3.0 * cosine *
+                             hours[h].sky.direct_illuminance();
         }
     }
     nlohmann::json result{{"scene", place.name}, {"sensors", count}, {"hours", hours.size()}};
-    std::printf("\n%s: %zu sensors, %zu hours\n%-34s %12s %12s %12s\n", place.name.c_str(), count, hours.size(), "",
-                "RMSE, sky", "with sun", "bytes/sensor");
+    std::printf("\n%s: %zu sensors, %zu hours\n%-36s %10s %10s %10s %12s\n", place.name.c_str(), count, hours.size(),
+                "", "RMSE, sky", "with sun", "sun by ray", "bytes/sensor");
     const char* suns[] = {"", ", sun in the nearest", ", sun in four"};  // in the order of Sun
     for (Rival& rival : rivals) {
         const std::vector<float> light = benchmark::dense_product(rival.coefficients, rival.columns,
@@ -173,6 +180,7 @@ nlohmann::json errors(const SitePlan& place, const DirectionTree& directions, co
                     rival.of_sky.add(value, sky[s][h]);
                 } else {
                     rival.with_sun.add(value, exact[s][h]);
+                    rival.by_ray.add(value, by_rays[s][h]);
                 }
             }
         }
@@ -180,14 +188,19 @@ nlohmann::json errors(const SitePlan& place, const DirectionTree& directions, co
         const std::string name = std::to_string(rival.patches->size() - 1) + " patches" +
                                  suns[static_cast<int>(rival.sun)];
         const double error = (is_sky ? rival.of_sky : rival.with_sun).relative();
-        std::printf("%-34s %10.3f %% %10.3f %% %12zu\n", name.c_str(), is_sky ? 100.0 * error : NAN,
-                    is_sky ? NAN : 100.0 * error, rival.patches->size() * sizeof(float));
+        const std::size_t memory = rival.patches->size() * sizeof(float);
+        if (is_sky) {
+            std::printf("%-36s %8.3f %% %10s %10s %12zu\n", name.c_str(), 100.0 * error, "", "", memory);
+        } else {
+            std::printf("%-36s %10s %8.3f %% %8.3f %% %12zu\n", name.c_str(), "", 100.0 * error,
+                        100.0 * rival.by_ray.relative(), memory);
+        }
         result["patches"].push_back({{"name", name}, {is_sky ? "sky" : "all", error}});
     }
     for (std::size_t e = 0; e < cut_errors.size(); ++e) {
         const CutMatrix matrix(site.sensors.sensors, [&](std::size_t i, auto& out) { out = cuts[e][i].sky; });
         Illuminances lux = sky_light(matrix, directions, hours, setting);
-        ErrorSum of_sky, with_sun;
+        ErrorSum of_sky, with_sun, by_ray;
         std::size_t pieces = 0, sun_pieces = 0, stored = 0;
         std::vector<std::byte> bytes;
         const SunList suns_of_year(hours);
@@ -196,6 +209,7 @@ nlohmann::json errors(const SitePlan& place, const DirectionTree& directions, co
             suns_of_year.add(cuts[e][s].sun, site.sensors.sensors[s].normal, weather, lux.of(s));
             for (std::size_t h = 0; h < hours.size(); ++h) {
                 with_sun.add(static_cast<double>(lux.of(s)[h]), exact[s][h]);
+                by_ray.add(static_cast<double>(lux.of(s)[h]), by_rays[s][h]);
             }
             pieces += cuts[e][s].sky.size();
             sun_pieces += cuts[e][s].sun.size();
@@ -211,13 +225,14 @@ nlohmann::json errors(const SitePlan& place, const DirectionTree& directions, co
         char name[64];
         std::snprintf(name, sizeof name, "cuts, --error %.2f, %.0f + %.0f pieces", cut_errors[e],
                       static_cast<double>(pieces) / n, static_cast<double>(sun_pieces) / n);
-        std::printf("%-34s %10.3f %% %10.3f %% %12.0f, in the file %.0f\n", name, 100.0 * of_sky.relative(),
-                    100.0 * with_sun.relative(), memory, static_cast<double>(stored) / n);
+        std::printf("%-36s %8.3f %% %8.3f %% %8.3f %% %12.0f, in the file %.0f\n", name, 100.0 * of_sky.relative(),
+                    100.0 * with_sun.relative(), 100.0 * by_ray.relative(), memory, static_cast<double>(stored) / n);
         result["cuts"].push_back({{"error", cut_errors[e]},
                                   {"pieces", static_cast<double>(pieces) / n},
                                   {"sun_pieces", static_cast<double>(sun_pieces) / n},
                                   {"sky", of_sky.relative()},
                                   {"all", with_sun.relative()},
+                                  {"sun_by_ray", by_ray.relative()},
                                   {"memory", memory},
                                   {"file", static_cast<double>(stored) / n}});
     }

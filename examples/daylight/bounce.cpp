@@ -62,6 +62,16 @@ Reflector reflector_along(const render::Scene& scene, const render::RayScene& ra
     return {};
 }
 
+/// Where, at which level of width, and with which normal: all that is hit there is one point.
+using Cell = std::array<std::int32_t, 5>;
+
+/// What a sensor sees of a cell.
+struct SeenCell {
+    Cell cell;
+    glm::vec3 position;  ///< of its first ray there
+    float share;         ///< of its illuminance that comes to the sensor
+};
+
 /// The normals that points may have.
 class Normals {
 public:
@@ -88,58 +98,70 @@ private:
 Bounce find_bounce(const render::Scene& scene, const render::RayScene& rays, std::span<const Sensor> sensors,
                    const BounceSettings& settings) {
     const float lift = sensor_lift(scene);
-    std::vector<Reflector> met(sensors.size() * settings.rays);
-    tbb::parallel_for(std::size_t{0}, sensors.size(), [&](std::size_t s) {
+    const Normals normals;
+    const auto cell_of = [&](const Reflector& r) -> Cell {
+        const double far = static_cast<double>(r.distance) / (near_spacings * settings.spacing);
+        const int level = far > 1.0 ? static_cast<int>(std::log2(far)) : 0;
+        const glm::dvec3 cell = glm::dvec3(r.position) / std::ldexp(settings.spacing, level);
+        const auto at = [](double x) { return static_cast<std::int32_t>(std::floor(std::clamp(x, -2e9, 2e9))); };
+        return {at(cell.x), at(cell.y), at(cell.z), level, normals.nearest(r.normal)};
+    };
+    const auto seen_from = [&](std::size_t s, std::vector<SeenCell>& seen) {
         const Sensor& sensor = sensors[s];
         const lightcuts::Basis frame{glm::dvec3(sensor.normal)};
         const glm::vec3 from = glm::vec3(sensor.position - scene.origin) + lift * sensor.normal;
         const double turn = lightcuts::uniform01(lightcuts::hash_keys(s, 0)),
                      shift = lightcuts::uniform01(lightcuts::hash_keys(s, 1));
+        seen.clear();
         for (std::uint32_t k = 0; k < settings.rays; ++k) {
             // A spiral over the disc below the hemisphere, turned by chance.
             const double share = (k + shift) / settings.rays;
             const glm::vec3 direction(
                 frame.out(lightcuts::around_z(std::sqrt(1.0 - share), k * (2.0 - std::numbers::phi) + turn)));
-            met[s * settings.rays + k] = reflector_along(scene, rays, from, direction);
-        }
-    });
-
-    const Normals normals;
-    std::map<std::array<std::int32_t, 5>, std::uint32_t> cells;
-    Bounce bounce;
-    std::vector<Bounce::Link> of_sensor;
-    for (std::size_t s = 0; s < sensors.size(); ++s) {
-        of_sensor.clear();
-        for (std::uint32_t k = 0; k < settings.rays; ++k) {
-            const Reflector& r = met[s * settings.rays + k];
-            if (!(r.reflectance > 0.0f)) continue;
-            const double far = static_cast<double>(r.distance) / (near_spacings * settings.spacing);
-            const int level = far > 1.0 ? static_cast<int>(std::log2(far)) : 0;
-            const glm::dvec3 cell = glm::dvec3(r.position) / std::ldexp(settings.spacing, level);
-            const std::int32_t normal = normals.nearest(r.normal);
-            const auto at = [](double x) { return static_cast<std::int32_t>(std::floor(std::clamp(x, -2e9, 2e9))); };
-            const auto next = static_cast<std::uint32_t>(bounce.points.size());
-            const auto [known, is_new] = cells.try_emplace({at(cell.x), at(cell.y), at(cell.z), level, normal}, next);
-            if (is_new) {
-                if (bounce.points.size() == most_points) {
-                    throw lightcuts::invalid_input("--bounce: more than " + std::to_string(most_points) +
-                                                   " points; give a larger spacing");
-                }
-                bounce.points.push_back({glm::dvec3(r.position) + scene.origin, normals[normal]});
+            const Reflector r = reflector_along(scene, rays, from, direction);
+            if (r.reflectance > 0.0f) {
+                seen.push_back({cell_of(r), r.position, r.reflectance / static_cast<float>(settings.rays)});
             }
-            of_sensor.push_back({known->second, r.reflectance / static_cast<float>(settings.rays)});
         }
-        std::stable_sort(of_sensor.begin(), of_sensor.end(),
-                         [](const Bounce::Link& a, const Bounce::Link& b) { return a.point < b.point; });
-        const std::size_t begin = bounce.links.size();
-        for (const Bounce::Link& link : of_sensor) {
-            if (bounce.links.size() > begin && bounce.links.back().point == link.point) {
-                bounce.links.back().share += link.share;
+        std::stable_sort(seen.begin(), seen.end(),
+                         [](const SeenCell& a, const SeenCell& b) { return a.cell < b.cell; });
+        std::size_t last = 0;
+        for (std::size_t i = 1; i < seen.size(); ++i) {
+            if (seen[i].cell == seen[last].cell) {
+                seen[last].share += seen[i].share;
             } else {
-                bounce.links.push_back(link);
+                seen[++last] = seen[i];
             }
         }
-        bounce.ends.push_back(bounce.links.size());
+        if (!seen.empty()) seen.resize(last + 1);
+    };
+
+    // Sensors at once, and then points in the sensors' order.
+    constexpr std::size_t batch = 256;
+    std::vector<std::vector<SeenCell>> seen(batch);
+    std::map<Cell, std::uint32_t> known;
+    Bounce bounce;
+    for (std::size_t first = 0; first < sensors.size(); first += batch) {
+        const std::size_t count = std::min(batch, sensors.size() - first);
+        tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) { seen_from(first + i, seen[i]); });
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::size_t begin = bounce.links.size();
+            for (const SeenCell& cell : seen[i]) {
+                const auto next = static_cast<std::uint32_t>(bounce.points.size());
+                const auto [at, is_new] = known.try_emplace(cell.cell, next);
+                if (is_new) {
+                    if (bounce.points.size() == most_points) {
+                        throw lightcuts::invalid_input("--bounce: more than " + std::to_string(most_points) +
+                                                       " points; give a larger spacing");
+                    }
+                    bounce.points.push_back({glm::dvec3(cell.position) + scene.origin, normals[cell.cell.back()]});
+                }
+                bounce.links.push_back({at->second, cell.share});
+            }
+            std::sort(bounce.links.begin() + static_cast<std::ptrdiff_t>(begin), bounce.links.end(),
+                      [](const Bounce::Link& a, const Bounce::Link& b) { return a.point < b.point; });
+            bounce.ends.push_back(bounce.links.size());
+        }
     }
     return bounce;
 }

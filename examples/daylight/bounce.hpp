@@ -33,8 +33,8 @@ struct Bounce {
 
 /// Which surfaces light sensors.
 struct BounceSettings {
-    double spacing = 0.5;      ///< of points, in units of the scene; wider as surfaces are farther away
-    std::uint32_t rays = 256;  ///< from each sensor, in proportion to the cosine
+    double spacing = 0.5;       ///< of points, in units of the scene; wider as surfaces are farther away
+    std::uint32_t rays = 2048;  ///< from each sensor, in proportion to the cosine
 };
 
 /// Finds the surfaces by rays from the sensors. Rays go on through what lets light pass, tinted; emitters and mirrors

@@ -102,11 +102,10 @@ TEST(SkyBlock, has_the_illuminance_that_the_weather_says) {
         SkyBlock block(directions, setting);
         block.fill(hours);
         for (std::size_t h = 0; h < block_hours; ++h) {
-            double above = 0.0, below = 0.0, weight_below = 0.0;
+            double above = 0.0, below = 0.0;
             for (std::size_t i = 0; i < directions.size(); ++i) {
                 const double height = to_compass(directions.directions[i], up).z;
                 (height > 0.0 ? above : below) += std::abs(height) * block.light()[i][h];
-                weight_below += height > 0.0 ? 0.0 : -height;
             }
             const double expected = h < hours.size() ? hours[h].sky.diffuse_illuminance() : 0.0;
             EXPECT_NEAR(above, expected, 1e-5 * expected);
