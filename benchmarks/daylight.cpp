@@ -12,6 +12,7 @@
 #include <oneapi/tbb/global_control.h>
 #include <CLI/CLI.hpp>
 #include <daylight/sensor_cuts.hpp>
+#include <daylight/sun_rays.hpp>
 #include <daylight/visibility.hpp>
 #include <daylight/visibility_file.hpp>
 #include <daylight/year.hpp>
@@ -200,12 +201,19 @@ nlohmann::json errors(const SitePlan& place, const DirectionTree& directions, co
     for (std::size_t e = 0; e < cut_errors.size(); ++e) {
         const CutMatrix matrix(site.sensors.sensors, [&](std::size_t i, auto& out) { out = cuts[e][i].sky; });
         Illuminances lux = sky_light(matrix, directions, hours, setting);
-        ErrorSum of_sky, with_sun, by_ray;
+        ErrorSum of_sky, with_sun, by_ray, with_rays;
         std::size_t pieces = 0, sun_pieces = 0, stored = 0;
         std::vector<std::byte> bytes;
         const SunList suns_of_year(hours);
+        const SunRays sun_rays(site.scene, site.rays, hours);
+        SunRays::Scratch sun_scratch;
         for (std::size_t s = 0; s < count; ++s) {
             for (std::size_t h = 0; h < hours.size(); ++h) { of_sky.add(static_cast<double>(lux.of(s)[h]), sky[s][h]); }
+            std::vector<float> by_sun_rays(lux.of(s).begin(), lux.of(s).end());
+            sun_rays.add(site.sensors.sensors[s], weather, by_sun_rays, sun_scratch);
+            for (std::size_t h = 0; h < hours.size(); ++h) {
+                with_rays.add(static_cast<double>(by_sun_rays[h]), by_rays[s][h]);
+            }
             suns_of_year.add(cuts[e][s].sun, site.sensors.sensors[s].normal, weather, lux.of(s));
             for (std::size_t h = 0; h < hours.size(); ++h) {
                 with_sun.add(static_cast<double>(lux.of(s)[h]), exact[s][h]);
@@ -225,14 +233,16 @@ nlohmann::json errors(const SitePlan& place, const DirectionTree& directions, co
         char name[64];
         std::snprintf(name, sizeof name, "cuts, --error %.2f, %.0f + %.0f pieces", cut_errors[e],
                       static_cast<double>(pieces) / n, static_cast<double>(sun_pieces) / n);
-        std::printf("%-36s %8.3f %% %8.3f %% %8.3f %% %12.0f, in the file %.0f\n", name, 100.0 * of_sky.relative(),
-                    100.0 * with_sun.relative(), 100.0 * by_ray.relative(), memory, static_cast<double>(stored) / n);
+        std::printf("%-36s %8.3f %% %8.3f %% %8.3f %% %12.0f, in the file %.0f; --scene %.3f %%\n", name,
+                    100.0 * of_sky.relative(), 100.0 * with_sun.relative(), 100.0 * by_ray.relative(), memory,
+                    static_cast<double>(stored) / n, 100.0 * with_rays.relative());
         result["cuts"].push_back({{"error", cut_errors[e]},
                                   {"pieces", static_cast<double>(pieces) / n},
                                   {"sun_pieces", static_cast<double>(sun_pieces) / n},
                                   {"sky", of_sky.relative()},
                                   {"all", with_sun.relative()},
                                   {"sun_by_ray", by_ray.relative()},
+                                  {"sun_by_ray_with_scene", with_rays.relative()},
                                   {"memory", memory},
                                   {"file", static_cast<double>(stored) / n}});
     }
@@ -291,7 +301,9 @@ nlohmann::json times(const SitePlan& place, const DirectionTree& directions, con
 
     const std::vector<LitHour> hours = lit_hours(weather, directions, setting);
     const CutMatrix matrix(site.sensors.sensors, [&](std::size_t i, auto& out) { out = cuts[i].sky; });
-    std::vector<double> skies, years, suns, denses;
+    std::vector<double> skies, years, suns, sun_ray_times, denses;
+    const SunRays sun_rays(site.scene, site.rays, hours);
+    SunRays::Scratch sun_scratch;
     const FixedPatches fine(directions, setting, 4);
     std::vector<float> rows, columns;
     SkyBlock block(directions, setting);
@@ -315,17 +327,24 @@ nlohmann::json times(const SitePlan& place, const DirectionTree& directions, con
                 list.add(cuts[s].sun, site.sensors.sensors[s].normal, weather, lux.of(s));
             }
         }));
+        sun_ray_times.push_back(benchmark::seconds([&] {
+            for (std::size_t s = 0; s < count; ++s) {
+                sun_rays.add(site.sensors.sensors[s], weather, lux.of(s), sun_scratch);
+            }
+        }));
         denses.push_back(benchmark::seconds([&] { benchmark::dense_product(rows, columns, fine.size()); }));
     }
     const double sky = benchmark::median(skies), year = benchmark::median(years), sun = benchmark::median(suns),
-                 dense = benchmark::median(denses);
+                 dense = benchmark::median(denses), sun_ray = benchmark::median(sun_ray_times);
     std::printf(
-        "a year, %zu lit hours: cuts %.2f s (of which skies %.2f s) + suns %.2f s; Eigen, 2305 patches, %.2f s\n"
+        "a year, %zu lit hours: cuts %.2f s (of which skies %.2f s) + suns %.2f s, or by rays %.2f s; Eigen, 2305 "
+        "patches, %.2f s\n"
         "ours / Eigen: %.2f; without evaluating the skies %.2f\n",
-        hours.size(), year, sky, sun, dense, (year + sun) / dense, (year - sky + sun) / dense);
+        hours.size(), year, sky, sun, sun_ray, dense, (year + sun) / dense, (year - sky + sun) / dense);
     return {{"scene", place.name}, {"sensors", count},      {"precomputation", whole},
             {"rays", ray_seconds}, {"hours", hours.size()}, {"year", year},
-            {"skies", sky},        {"suns", sun},           {"dense", dense}};
+            {"skies", sky},        {"suns", sun},           {"suns_by_rays", sun_ray},
+            {"dense", dense}};
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <system_error>
 #include <vector>
 
+#include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
@@ -22,6 +23,8 @@
 #include "annual.hpp"
 #include "bounce.hpp"
 #include "options.hpp"
+#include "scene_hash.hpp"
+#include "sun_rays.hpp"
 #include "trace.hpp"
 #include "visibility_file.hpp"
 #include "year.hpp"
@@ -95,7 +98,8 @@ ExitStatus trace(const Options& options) {
                                        " sensors are in " + unfinished.string() + ", and --resume goes on with them");
         return stopped;
     }
-    const std::vector<std::byte> file = visibility_file(directions, sensors, bounce, result.sky, result.sun);
+    const std::vector<std::byte> file = visibility_file(directions, sensors, bounce, result.sky, result.sun,
+                                                        scene_hash(scene));
     render::write_file(options.output, {reinterpret_cast<const char*>(file.data()), file.size()});
     std::error_code ignored;
     std::filesystem::remove(unfinished, ignored);
@@ -112,12 +116,44 @@ ExitStatus trace(const Options& options) {
     return done;
 }
 
-ExitStatus year(const Options& options) {
+std::vector<std::filesystem::path> year_outputs(const Options& options) {
     std::vector<std::filesystem::path> outputs;
     for (const auto& path : {options.output, options.matrix, options.annual, options.picture}) {
         if (!path.empty()) outputs.push_back(path);
     }
-    require_usable(outputs, {options.visibility, options.weather});
+    return outputs;
+}
+
+/// Adds suns, and returns the hours in which they shone on each sensor.
+std::vector<double> add_suns(const Options& options, const VisibilityFile& traced, const std::vector<Sensor>& sensors,
+                             const Weather& weather, std::span<const LitHour> hours, Illuminances& lux) {
+    std::vector<double> sun_hours(sensors.size());
+    if (options.scene.empty()) {
+        const SunList suns(hours);
+        tbb::parallel_for(std::size_t{0}, sensors.size(), [&](std::size_t i) {
+            lightcuts::PiecewiseConstant<float> sun;
+            traced.read_sun(i, sun);
+            sun_hours[i] = suns.add(sun, sensors[i].normal, weather, lux.of(i));
+        });
+        return sun_hours;
+    }
+    const render::Scene scene = render::load_scene(options.scene);
+    require_usable(year_outputs(options), scene.files);
+    if (scene_hash(scene) != traced.scene()) {
+        throw lightcuts::invalid_input(options.scene + ": is not the scene that " + options.visibility.string() +
+                                       " was traced in, or has changed; trace it anew");
+    }
+    const render::RayScene rays(scene, render::RayTracer(options.isa));
+    const SunRays suns(scene, rays, hours);
+    tbb::enumerable_thread_specific<SunRays::Scratch> scratches;
+    tbb::parallel_for(std::size_t{0}, sensors.size(), [&](std::size_t i) {
+        sun_hours[i] = suns.add(sensors[i], weather, lux.of(i), scratches.local());
+    });
+    return sun_hours;
+}
+
+ExitStatus year(const Options& options) {
+    require_usable(year_outputs(options), {options.visibility, options.weather});
     const Stopwatch watch;
     const Weather weather = read_epw(options.weather);
     const VisibilityFile traced(options.visibility);
@@ -136,13 +172,7 @@ ExitStatus year(const Options& options) {
         render::Progress progress((hours.size() + block_hours - 1) / block_hours, !options.quiet);
         lux = sky_light(cuts, traced.directions(), hours, setting, [&] { progress.step(); });
     }
-    const SunList suns(hours);
-    std::vector<double> sun_hours(all.size());
-    tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) {
-        lightcuts::PiecewiseConstant<float> sun;
-        traced.read_sun(i, sun);
-        sun_hours[i] = suns.add(sun, all[i].normal, weather, lux.of(i));
-    });
+    const std::vector<double> sun_hours = add_suns(options, traced, all, weather, hours, lux);
     add_bounce(traced.bounce(), lux);
     lux.drop_beyond(sensors.sensors.size());
     std::vector<AnnualFigures> figures(sensors.sensors.size());

@@ -1,5 +1,6 @@
 #include "options.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <functional>
@@ -71,6 +72,14 @@ void set_occupancy(Occupancy& occupancy, const std::string& text) {
     occupancy = {*from, *to};
 }
 
+void set_isa(Options& options, const std::string& name) {
+    const std::vector<std::string>& known = render::isa_names();
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+        refuse("--isa", name, "one of " + render::listed(known));
+    }
+    options.isa = name;
+}
+
 /// Options of one subcommand.
 class Words {
 public:
@@ -129,12 +138,8 @@ void add_trace(CLI::App& app, Options& options, LevelGrid& grid, bool& has_grid,
                [&](const std::string& s) {
                    options.bounce = number_in("--bounce", s, 1e-6, 1e6, "a number from 1e-6 to 1e6");
                });
-    words.text("--isa", "NAME", "instruction set of the ray tracer (the best)", [&](const std::string& s) {
-        bool is_known = false;
-        for (const std::string& name : render::isa_names()) is_known = is_known || name == s;
-        if (!is_known) refuse("--isa", s, "one of " + render::listed(render::isa_names()));
-        options.isa = s;
-    });
+    words.text("--isa", "NAME", "instruction set of the ray tracer (the best)",
+               [&](const std::string& s) { set_isa(options, s); });
     app.add_flag("--resume", options.resume, "go on with the interrupted run that --output names");
     add_common(app, options);
 }
@@ -154,6 +159,14 @@ void add_year(CLI::App& app, Options& options) {
                    if (!is_known) refuse("--figure", s, "one of " + render::listed(figure_names()));
                    options.figure = s;
                });
+    words.text("--scene", "SCENE",
+               "that was traced, for a ray to the sun of each hour; else the nearest direction counts",
+               [&](const std::string& s) {
+                   if (s.empty()) refuse("--scene", "''", "a scene");
+                   options.scene = s;
+               });
+    words.text("--isa", "NAME", "instruction set of these rays (the best)",
+               [&](const std::string& s) { set_isa(options, s); });
     words.text("--north", "DEG", "by which the scene's north is turned from true north towards the east (0)",
                [&](const std::string& s) {
                    options.turned = number_in("--north", s, -360.0, 360.0, "degrees from -360 to 360");
@@ -202,6 +215,7 @@ Options parse_options(int argc, const char* const* argv) {
         if (options.output.empty() && options.matrix.empty() && options.annual.empty() && options.picture.empty()) {
             throw usage_error("nothing is to be written: give --output, --matrix, --annual or --picture");
         }
+        if (!options.isa.empty() && options.scene.empty()) throw usage_error("--isa needs --scene");
         if (year->get_option("--figure")->count() > 0 && options.picture.empty()) {
             throw usage_error("--figure needs --picture");
         }

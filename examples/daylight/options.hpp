@@ -24,7 +24,7 @@ struct Options {
     bool quiet = false;
 
     // trace
-    std::string scene;  ///< a file, or builtin:NAME
+    std::string scene;  ///< a file, or builtin:NAME; of `year` for rays to suns, else empty
     std::filesystem::path sensors;
     std::optional<LevelGrid> grid;
     UpAxis up = UpAxis::y;

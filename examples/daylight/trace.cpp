@@ -16,6 +16,7 @@
 
 #include "chunk_file.hpp"
 #include "facing.hpp"
+#include "scene_hash.hpp"
 #include "sensor_cuts.hpp"
 #include "visibility.hpp"
 #include "visibility_file.hpp"
@@ -61,14 +62,7 @@ std::uint64_t fingerprint_of(const render::Scene& scene, const render::RayScene&
                              std::span<const Sensor> sensors, const TraceSettings& settings) {
     render::ContentHash hash;
     hash.add(render::program_build()).add(rays.tracer().isa()).add(settings.error);
-    for (int c = 0; c < 3; ++c) hash.add(scene.origin[c]);
-    hash.add(scene.positions).add(scene.triangles).add(scene.triangle_material).add(scene.colors);
-    for (const auto& uvs : scene.uv_sets) hash.add(uvs);
-    for (const render::Material& m : scene.materials) {
-        hash.add(m.base_color).add(m.transmission).add(m.alpha).add(m.alpha_cutoff).add(m.base_alpha).add(m.model);
-        for (const render::TextureUse* use : render::textures_of(m)) hash.add(use->texture).add(use->uv_set);
-    }
-    for (const render::Texture& t : scene.textures) hash.add(t.width).add(t.texels);
+    hash.add(scene_hash(scene));
     hash.add(directions.directions);
     for (const Sensor& s : sensors) {
         for (int c = 0; c < 3; ++c) hash.add(s.position[c]);

@@ -25,7 +25,8 @@ constexpr std::uint64_t direction_tag = 0x6461796c69676874u;
 struct Header {
     std::uint64_t byte_order = daylighting::byte_order;
     std::array<std::uint64_t, 6> sizes{};  ///< of the tree, sensors, points, links, cuts of skies and of suns
-    std::uint64_t check = 0;               ///< of the sizes and of sensors, points and links
+    std::uint64_t scene = 0;
+    std::uint64_t check = 0;  ///< of all that is above, and of sensors, points and links
 };
 
 struct SensorHeader {
@@ -63,6 +64,7 @@ std::uint64_t check_of(const Header& header, std::span<const std::byte> sensors,
                        std::span<const std::byte> links) {
     render::ContentHash hash;
     for (const std::uint64_t size : header.sizes) hash.add(size);
+    hash.add(header.scene);
     for (const auto part : {sensors, points, links}) hash.add_bytes(part.data(), part.size());
     return hash.value();
 }
@@ -136,7 +138,8 @@ DirectionTree directions_of(std::span<const std::byte> bytes) {
 }  // namespace
 
 std::vector<std::byte> visibility_file(const DirectionTree& directions, const SensorSet& sensors, const Bounce& bounce,
-                                       const lightcuts::CutFileWriter& sky, const lightcuts::CutFileWriter& sun) {
+                                       const lightcuts::CutFileWriter& sky, const lightcuts::CutFileWriter& sun,
+                                       std::uint64_t scene) {
     std::vector<glm::vec3> of_nodes(directions.tree.size(), glm::vec3(0.0f));
     for (std::uint32_t n = 0; n < directions.tree.size(); ++n) {
         if (directions.tree.is_leaf(n)) of_nodes[n] = directions.directions[directions.tree.item(n)];
@@ -151,6 +154,7 @@ std::vector<std::byte> visibility_file(const DirectionTree& directions, const Se
         sky.bytes(),
         sun.bytes()};
     Header header;
+    header.scene = scene;
     for (std::size_t i = 0; i < parts.size(); ++i) header.sizes[i] = parts[i].size();
     header.check = check_of(header, parts[1], parts[2], parts[3]);
     std::vector<std::byte> file;
@@ -182,6 +186,7 @@ VisibilityFile::VisibilityFile(const std::filesystem::path& path) : path_(path),
         directions_ = directions_of(parts[0]);
         sensors_ = sensors_of(parts[1]);
         if (sensors_.sensors.empty()) refuse("has no sensors");
+        scene_ = header.scene;
         bounce_.points = sensors_of(parts[2]).sensors;
         read_links(parts[3], sensors_.sensors.size(), bounce_);
         sky_.emplace(parts[4], directions_.tree);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -23,7 +24,8 @@ inline constexpr lightcuts::CutEncoding cut_encoding{.bits = lightcuts::ValueBit
 /// if any, and of each sensor and then each point its two cuts. `sky` and `sun` have these, of the tree of
 /// `directions`.
 std::vector<std::byte> visibility_file(const DirectionTree& directions, const SensorSet& sensors, const Bounce& bounce,
-                                       const lightcuts::CutFileWriter& sky, const lightcuts::CutFileWriter& sun);
+                                       const lightcuts::CutFileWriter& sky, const lightcuts::CutFileWriter& sun,
+                                       std::uint64_t scene = 0);
 
 /// Such a file, mapped: cuts are read as they are asked for. threads: by many at once.
 class VisibilityFile {
@@ -38,6 +40,7 @@ public:
     const SensorSet& sensors() const { return sensors_; }
     /// Without links if no light bounces.
     const Bounce& bounce() const { return bounce_; }
+    std::uint64_t scene() const { return scene_; }
     /// The sensors and then the points.
     std::vector<Sensor> all() const;
 
@@ -53,6 +56,7 @@ private:
     DirectionTree directions_;
     SensorSet sensors_;
     Bounce bounce_;
+    std::uint64_t scene_ = 0;
     std::optional<lightcuts::CutFile> sky_, sun_;  ///< refer to the file and to the tree
 };
 

@@ -65,6 +65,13 @@ Illuminances sky_light(const CutMatrix& cuts, const DirectionTree& directions, s
     return result;
 }
 
+double add_sun(const LitHour& hour, const glm::vec3& normal, float seen, const Weather& weather, float& lux) {
+    const float cosine = glm::dot(normal, hour.towards_sun);
+    if (!(cosine > 0.0f)) return 0.0;
+    lux += seen * cosine * static_cast<float>(hour.sky.direct_illuminance());
+    return seen > 0.5f && weather.hours[hour.hour].direct_normal >= least_sunshine ? 1.0 : 0.0;
+}
+
 SunList::SunList(std::span<const LitHour> hours) : hours_(hours) {
     for (std::size_t i = 0; i < hours.size(); ++i) {
         if (hours[i].has_sun()) order_.push_back(static_cast<std::uint32_t>(i));
@@ -78,12 +85,8 @@ double SunList::add(const lightcuts::PiecewiseConstant<float>& sun, const glm::v
     std::size_t piece = 0;
     double shining = 0.0;
     for (const std::uint32_t i : order_) {
-        const LitHour& hour = hours_[i];
-        while (sun.pieces()[piece].leaf_end() <= hour.sun_place) ++piece;
-        const float cosine = glm::dot(normal, hour.towards_sun), seen = sun.values()[piece];
-        if (!(cosine > 0.0f)) continue;
-        lux[i] += seen * cosine * static_cast<float>(hour.sky.direct_illuminance());
-        if (seen > 0.5f && weather.hours[hour.hour].direct_normal >= least_sunshine) shining += 1.0;
+        while (sun.pieces()[piece].leaf_end() <= hours_[i].sun_place) ++piece;
+        shining += add_sun(hours_[i], normal, sun.values()[piece], weather, lux[i]);
     }
     return shining;
 }

@@ -59,14 +59,17 @@ struct Illuminances {
 Illuminances sky_light(const CutMatrix& cuts, const DirectionTree& directions, std::span<const LitHour> hours,
                        const Setting& setting, const std::function<void()>& step = {});
 
+/// Adds to `lux` the sun of one hour, of which a sensor sees the share `seen`, and returns 1 if it shines there: of at
+/// least 120 W/m^2, by `weather`, and more than half of it is seen; else 0.
+double add_sun(const LitHour& hour, const glm::vec3& normal, float seen, const Weather& weather, float& lux);
+
 /// Lit hours in the order of their suns' places: what the suns of a year ask of each sensor's sun cut in one pass.
 class SunList {
 public:
     explicit SunList(std::span<const LitHour> hours);
 
-    /// Adds the suns' light to a sensor's illuminances, and returns how many hours the sun shone on it: those of at
-    /// least 120 W/m^2, by `weather`, in which more than half of it was seen. `sun`: the sensor's cut.
-    /// cost: O(hours + pieces).
+    /// Adds the suns' light to a sensor's illuminances, and returns how many hours the sun shone on it, as `add_sun`
+    /// says. `sun`: the sensor's cut. cost: O(hours + pieces).
     double add(const lightcuts::PiecewiseConstant<float>& sun, const glm::vec3& normal, const Weather& weather,
                std::span<float> lux) const;
 

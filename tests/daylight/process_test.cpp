@@ -112,6 +112,19 @@ TEST_F(Program, adds_light_that_bounces) {
     EXPECT_LT(with_bounce, 3.0 * direct);
 }
 
+TEST_F(Program, takes_rays_to_suns_in_the_scene_that_was_traced) {
+    ASSERT_EQ(run(trace_grid).status, 0);
+    ASSERT_EQ(run("year a.cuts --weather week.epw -o near.csv --quiet").status, 0);
+    const Process::Result rays = run("year a.cuts --weather week.epw -o rays.csv --scene shed.obj --quiet");
+    ASSERT_EQ(rays.status, 0) << rays.err;
+    EXPECT_NE(folder.read("near.csv"), folder.read("rays.csv"));
+    folder.write("other.obj", "v -4 0 -4\nv 4 0 -4\nv 4 0 4\nf 3 2 1\n");
+    const Process::Result refused = run("year a.cuts --weather week.epw -o other.csv --scene other.obj");
+    EXPECT_EQ(refused.status, 1);
+    EXPECT_THAT(refused.err, HasSubstr("other.obj: is not the scene that a.cuts was traced in"));
+    EXPECT_FALSE(folder.has("other.csv"));
+}
+
 TEST_F(Program, says_what_it_is) {
     EXPECT_THAT(run("--help").out, HasSubstr("trace"));
     EXPECT_THAT(run("trace --help").out, HasSubstr("--sensors"));
@@ -156,11 +169,13 @@ TEST_F(Program, refuses_what_it_cannot_use_in_one_line_and_writes_nothing) {
         {"year two.cuts -o a.csv", 2, "--weather"},
         {"year two.cuts --weather week.epw", 2, "nothing is to be written"},
         {"year two.cuts --weather week.epw -o a.csv --figure sun", 2, "--figure needs --picture"},
+        {"year two.cuts --weather week.epw -o a.csv --isa avx2", 2, "--isa needs --scene"},
         {"year two.cuts --weather week.epw -o a.csv --hours 18-8", 2, "FROM-TO"},
         {"year two.cuts --weather week.epw -o a.csv --ground 1.5", 2, "from 0 to 1"},
         {"year two.cuts --weather week.epw -o a.csv --north south", 2, "degrees"},
         {"year two.cuts --weather week.epw -o a.csv --annual a.csv", 1, "two files would have this name"},
         {"year two.cuts --weather week.epw -o week.epw", 1, "would replace a file that is read"},
+        {"year two.cuts --weather week.epw -o shed.obj --scene shed.obj", 1, "would replace a file that is read"},
         {"year two.cuts --weather week.epw -o a.csv --picture a.png", 1, "are no grid"},
         {"year two.cuts --weather bad.epw -o a.csv", 1, "bad.epw:1: LOCATION has 2 fields"},
         {"year bad.cuts --weather week.epw -o a.csv", 1, "bad.cuts: is no file of lightcuts-daylight trace"},

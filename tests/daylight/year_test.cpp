@@ -7,6 +7,7 @@
 
 #include <daylight/annual.hpp>
 #include <daylight/sensor_cuts.hpp>
+#include <daylight/sun_rays.hpp>
 #include <daylight/visibility.hpp>
 #include <daylight/year.hpp>
 
@@ -120,6 +121,33 @@ TEST(Year, puts_the_sun_where_it_is_seen) {
         const bool seen = (sun.z > 0.0f && azimuth < 0.2f) || sun.z <= 0.0f;
         EXPECT_EQ(lux[h] > 0.0f, seen && hours[h].has_sun()) << sun.x << " " << sun.y << " " << sun.z;
     }
+}
+
+TEST(SunRays, are_exact_where_the_nearest_direction_is_not) {
+    // The same slit by rays: at every azimuth but those within rounding of its edges.
+    Weather weather = week();
+    for (WeatherHour& hour : weather.hours) hour.direct_normal = 800.0;
+    Room room = open_field();
+    room.quad({-500, -1, 1}, {-0.2f, -1, 1}, {-0.2f, 500, 1}, {-500, 500, 1});
+    room.quad({0.2f, -1, 1}, {500, -1, 1}, {500, 500, 1}, {0.2f, 500, 1});
+    const Sensor sensor{{0, 0, 0}, {0, 1, 0}};
+    const DirectionTree directions = make_direction_tree(64);
+    const std::vector<LitHour> hours = lit_hours(weather, directions, {});
+    const render::RayScene rays(room.scene());
+    const SunRays suns(room.scene(), rays, hours);
+    SunRays::Scratch scratch;
+    std::vector<float> lux(hours.size(), 0.0f);
+    const double shining = suns.add(sensor, weather, lux, scratch);
+    double expected = 0.0;
+    for (std::size_t h = 0; h < hours.size(); ++h) {
+        const glm::vec3 sun = hours[h].towards_sun;
+        const bool seen = hours[h].has_sun() && (sun.z <= 0.0f || std::abs(sun.x) < 0.2f * sun.z);
+        const double all = hours[h].sky.direct_illuminance() * static_cast<double>(sun.y);
+        EXPECT_NEAR(lux[h], seen ? all : 0.0, 1e-4 * std::abs(all)) << sun.x << " " << sun.z;
+        expected += seen ? 1.0 : 0.0;
+    }
+    EXPECT_EQ(shining, expected);
+    EXPECT_GT(shining, 5.0);
 }
 
 TEST(Year, does_not_depend_on_Threads) {
