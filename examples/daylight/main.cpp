@@ -87,6 +87,12 @@ ExitStatus trace(const Options& options) {
     if (options.bounce) bounce = find_bounce(scene, rays, sensors.sensors, {.spacing = *options.bounce});
     std::vector<Sensor> all = sensors.sensors;
     all.insert(all.end(), bounce.points.begin(), bounce.points.end());
+    std::error_code ignored;
+    if (const bool is_there = std::filesystem::exists(unfinished, ignored);
+        is_there != options.resume && !options.quiet) {
+        say(unfinished.string() + (is_there ? ": starting over; --resume would have gone on with these finished sensors"
+                                            : ": there are no finished sensors; starting from the beginning"));
+    }
     render::defer_signals();
     const Trace result = trace_sensors(
         scene, rays, directions, all,
@@ -101,7 +107,6 @@ ExitStatus trace(const Options& options) {
     const std::vector<std::byte> file = visibility_file(directions, sensors, bounce, result.sky, result.sun,
                                                         scene_hash(scene));
     render::write_file(options.output, {reinterpret_cast<const char*>(file.data()), file.size()});
-    std::error_code ignored;
     std::filesystem::remove(unfinished, ignored);
     if (!options.quiet) {
         const auto n = static_cast<double>(count);

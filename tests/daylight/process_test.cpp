@@ -191,6 +191,18 @@ TEST_F(Program, refuses_what_it_cannot_use_in_one_line_and_writes_nothing) {
     }
 }
 
+TEST_F(Program, says_what_becomes_of_an_unfinished_run) {
+    EXPECT_THAT(run(trace_grid + " --resume").err, HasSubstr("a.resume: there are no finished sensors"));
+    folder.write("a.resume", "");
+    EXPECT_THAT(run(trace_grid).err, HasSubstr("a.resume: starting over; --resume would have gone on"));
+    EXPECT_FALSE(folder.has("a.resume"));
+    folder.write("a.resume", "something else");
+    const Process::Result refused = run(trace_grid + " --quiet");
+    EXPECT_EQ(refused.status, 1);
+    EXPECT_THAT(refused.err, HasSubstr("a.resume: is not a file of finished sensors; move it away"));
+    EXPECT_EQ(folder.read("a.resume"), "something else");
+}
+
 TEST_F(Program, that_is_interrupted_goes_on_to_the_same_file) {
     const std::string arguments = "trace shed.obj --grid -4,1,-4,4,1,4 --spacing 0.1 --threads 1 -o a.cuts --quiet";
     const auto process = start(arguments);
