@@ -6,10 +6,10 @@
 
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>
-#include <glm/geometric.hpp>
 #include <lightcuts/core/invalid_input.hpp>
 
 #include "adaptation.hpp"
+#include "choose_camera.hpp"
 #include "error.hpp"
 #include "fingerprint.hpp"
 #include "interrupt.hpp"
@@ -40,8 +40,6 @@ using namespace render;
 
 enum ExitStatus { done = 0, bad_input = 1, bad_command_line = 2, stopped = interrupted_status };
 
-constexpr float default_fov = 45.0f;
-
 class Stopwatch {
 public:
     /// Seconds since the last call, or since construction.
@@ -66,42 +64,6 @@ std::optional<Picture> read_reference(const Options& options) {
                                        " or another reference");
     }
     return reference;
-}
-
-Camera scene_camera(const Scene& scene, const std::string& name) {
-    if (scene.cameras.empty()) {
-        throw lightcuts::invalid_input(scene.name + ": the scene has no camera; give --eye and --target");
-    }
-    if (name.empty()) return scene.cameras.front();
-    std::string names;
-    for (const Camera& camera : scene.cameras) {
-        if (camera.name == name) return camera;
-        names += (names.empty() ? "" : ", ") + camera.name;
-    }
-    for (const Camera& camera : scene.cameras) {
-        if (camera.other_name == name) return camera;
-    }
-    throw lightcuts::invalid_input(scene.name + ": no camera '" + name + "'; there is " + names);
-}
-
-Camera choose_camera(const Scene& scene, const Options& options) {
-    Camera camera;
-    if (options.eye) {
-        camera.eye = *options.eye;
-        camera.target = *options.target;
-        camera.up = options.up.value_or(default_up(camera.eye, camera.target));
-        camera.vertical_fov = default_fov;
-    } else {
-        camera = scene_camera(scene, options.camera);
-    }
-    if (options.fov && camera.height > 0.0) {
-        throw usage_error("--fov: the camera '" + camera.name + "' is orthographic, it has no field of view");
-    }
-    if (options.fov) camera.vertical_fov = *options.fov;
-    const std::string where = options.eye ? "--eye, --target" : scene.name + ": camera '" + camera.name + "'";
-    require_usable(camera, where);
-    for (const CameraPose& pose : camera.at_instants) require_usable(posed(camera, pose), where);
-    return camera;
 }
 
 /// The files that the picture is made of, and that with which it is compared.

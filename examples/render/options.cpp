@@ -1,17 +1,15 @@
 #include "options.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <string_view>
-#include <system_error>
 
 #include <CLI/CLI.hpp>
 #include <glm/geometric.hpp>
 
 #include "io/escape.hpp"
+#include "option_value.hpp"
 #include "pixel_filter.hpp"
 #include "rays/ray_tracer.hpp"
 
@@ -19,10 +17,8 @@ namespace render {
 
 namespace {
 
-constexpr int largest_side = 1 << 16;
-constexpr double longest_time = 1e6;              ///< seconds
-constexpr std::uint32_t most_instants = 65536;    ///< as many as time vectors hold
-constexpr long long largest_picture = 1ll << 27;  ///< pixels
+constexpr double longest_time = 1e6;            ///< seconds
+constexpr std::uint32_t most_instants = 65536;  ///< as many as time vectors hold
 
 const std::vector<std::string> methods = {
     "exhaustive", "lightcuts",     "multidimensional",   "unified-cut",         "ward",
@@ -35,54 +31,6 @@ bool contains(const std::vector<std::string>& words, const std::string& word) {
     return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-/// All of `text` as a finite number.
-template <class Number>
-std::optional<Number> to_number(std::string_view text) {
-    Number value{};
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-    if constexpr (std::is_floating_point_v<Number>) {
-        if (!std::isfinite(value)) return std::nullopt;
-    }
-    return value;
-}
-
-[[noreturn]] void refuse(const std::string& option, const std::string& value, const std::string& wanted) {
-    throw usage_error(option + " " + value + ": expected " + wanted);
-}
-
-template <class Number>
-Number number_in(const std::string& option, const std::string& text, Number lowest, Number highest,
-                 const std::string& wanted) {
-    const auto value = to_number<Number>(text);
-    if (!value || *value < lowest || *value > highest) refuse(option, text, wanted);
-    return *value;
-}
-
-std::vector<std::string> split(const std::string& text, char separator) {
-    std::vector<std::string> parts(1);
-    for (const char c : text) {
-        if (c == separator) {
-            parts.emplace_back();
-        } else {
-            parts.back() += c;
-        }
-    }
-    return parts;
-}
-
-glm::dvec3 vector_of(const std::string& option, const std::string& text) {
-    const std::vector<std::string> parts = split(text, ',');
-    glm::dvec3 v(0.0);
-    for (int i = 0; i < 3; ++i) {
-        const auto value = parts.size() == 3 ? to_number<double>(parts[static_cast<std::size_t>(i)]) : std::nullopt;
-        // What a float cannot hold cannot be rendered.
-        if (!value || !std::isfinite(static_cast<float>(*value))) refuse(option, text, "three numbers X,Y,Z");
-        v[i] = *value;
-    }
-    return v;
-}
-
 void set_sun(Options& options, const std::string& text) {
     const std::vector<std::string> parts = split(text, ',');
     const auto elevation = parts.size() == 2 ? to_number<double>(parts[0]) : std::nullopt;
@@ -92,23 +40,6 @@ void set_sun(Options& options, const std::string& text) {
                "ELEVATION,AZIMUTH in degrees; the elevation from 0 to 90, the sky ends at the horizon");
     }
     options.sun_sky = {.elevation = *elevation, .azimuth = *azimuth};
-}
-
-void set_size(Options& options, const std::string& text) {
-    const std::vector<std::string> parts = split(text, 'x');
-    const auto width = parts.size() == 2 ? to_number<int>(parts[0]) : std::nullopt;
-    const auto height = parts.size() == 2 ? to_number<int>(parts[1]) : std::nullopt;
-    if (!width || !height || *width < 1 || *height < 1) {
-        refuse("--size", text, "WxH with a width and a height of at least one pixel, such as 640x480");
-    }
-    if (*width > largest_side || *height > largest_side ||
-        static_cast<long long>(*width) * static_cast<long long>(*height) > largest_picture) {
-        refuse("--size", text,
-               "at most " + std::to_string(largest_side) + " pixels a side and " + std::to_string(largest_picture) +
-                   " in all");
-    }
-    options.width = *width;
-    options.height = *height;
 }
 
 void set_method(Options& options, const std::string& name) {
@@ -150,21 +81,8 @@ void set_clamp(Options& options, const std::string& mode, std::optional<float> r
 }
 
 void check_together(const Options& options) {
-    if (options.eye.has_value() != options.target.has_value()) {
-        throw usage_error(std::string(options.eye ? "--eye needs --target" : "--target needs --eye") + " X,Y,Z too");
-    }
-    if (!options.camera.empty() && options.eye) {
-        throw usage_error("--camera and --eye name two cameras: give one of them");
-    }
+    check_camera(options);
     if (options.focus && options.aperture == 0.0f) throw usage_error("--focus needs --aperture: a pinhole is sharp");
-    if (options.up && !options.eye) throw usage_error("--up needs --eye and --target");
-    if (options.eye && *options.eye == *options.target) {
-        throw usage_error("--target is the same point as --eye: give two that differ");
-    }
-    if (options.up) {
-        const glm::dvec3 across = glm::cross(*options.target - *options.eye, glm::dvec3(*options.up));
-        if (across == glm::dvec3(0.0)) throw usage_error("--up points along the view: give another direction");
-    }
 }
 
 }  // namespace

@@ -54,6 +54,23 @@ std::uint32_t receiver_name(const Scene& scene, const SurfacePoint& point) {
 
 EyeRaySeen EyePathTracer::follow(const EyeRay& ray, std::uint32_t pixel, std::uint32_t sample,
                                  std::vector<SurfacePoint>& points) const {
+    return follow_until(ray, pixel, sample, points, [this](const glm::vec3& direction, const glm::vec3& weight) {
+        return weight * scene_.background.radiance(direction);
+    });
+}
+
+EyeRaySeen EyePathTracer::follow(const EyeRay& ray, std::uint32_t pixel, std::uint32_t sample,
+                                 std::vector<SurfacePoint>& points, std::vector<Escape>& escapes) const {
+    return follow_until(ray, pixel, sample, points, [&](const glm::vec3& direction, const glm::vec3& weight) {
+        escapes.push_back({direction, weight, pixel});
+        return glm::vec3(0.0f);
+    });
+}
+
+/// `background(direction, weight)`: radiance that a part of the ray of that weight gets where there is no surface.
+template <class Background>
+EyeRaySeen EyePathTracer::follow_until(const EyeRay& ray, std::uint32_t pixel, std::uint32_t sample,
+                                       std::vector<SurfacePoint>& points, Background&& background) const {
     EyeRaySeen seen;
     seen.depth = std::numeric_limits<float>::infinity();
     std::uint32_t vertex = 0;
@@ -71,7 +88,7 @@ EyeRaySeen EyePathTracer::follow(const EyeRay& ray, std::uint32_t pixel, std::ui
             at.weight *= add_fog_points(scene_.fog, segment, vertex, points);
         }
         if (!hit) {
-            seen.emitted += at.weight * scene_.background.radiance(at.direction);
+            seen.emitted += background(at.direction, at.weight);
             continue;
         }
         const SurfaceGeometry surface = surface_at(scene_, *hit, at.direction);
@@ -104,6 +121,9 @@ EyeRaySeen EyePathTracer::follow(const EyeRay& ray, std::uint32_t pixel, std::ui
         point.sample = sample;
         point.vertex = vertex++;
         point.instant = ray.instant;
+        point.triangle = hit->triangle;
+        point.u = hit->u;
+        point.v = hit->v;
         points.push_back(point);
     }
     return seen;

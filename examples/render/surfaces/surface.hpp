@@ -25,6 +25,8 @@ struct SurfacePoint : SurfaceLobes {
     std::uint32_t sample = 0;          ///< eye ray within the pixel
     std::uint32_t vertex = 0;          ///< point of the eye ray: 0, and more behind mirrors, glass and leaves
     std::uint32_t instant = 0;         ///< of the eye ray
+    std::uint32_t triangle = 0;        ///< of the scene; of fog 0
+    float u = 0, v = 0;                ///< barycentric, of its second and third corner
 };
 
 /// The id of the receiver at a point: a hash of it, so that random choices differ between pixels, eye rays and the
@@ -36,6 +38,13 @@ struct EyeRaySeen {
     glm::vec3 emitted{0.0f};  ///< radiance of emitters and background in sight, also in mirrors and through glass
     float depth = 0;          ///< distance to the first surface; infinite where there is none
     glm::vec3 normal{0.0f};   ///< shading normal of the first surface; 0 where there is none
+};
+
+/// Part of an eye ray that met no surface.
+struct Escape {
+    glm::vec3 direction{0.0f};  ///< unit
+    glm::vec3 weight{1.0f};     ///< share of what comes from there in the eye ray's radiance
+    std::uint32_t pixel = 0;
 };
 
 /// Finds the points that eye rays see: directly, through masks and leaves, in mirrors and through glass.
@@ -51,7 +60,15 @@ public:
     EyeRaySeen follow(const EyeRay& ray, std::uint32_t pixel, std::uint32_t sample,
                       std::vector<SurfacePoint>& points) const;
 
+    /// The same for a background that changes: instead of its radiance, appends to `escapes` where it is looked up.
+    EyeRaySeen follow(const EyeRay& ray, std::uint32_t pixel, std::uint32_t sample, std::vector<SurfacePoint>& points,
+                      std::vector<Escape>& escapes) const;
+
 private:
+    template <class Background>
+    EyeRaySeen follow_until(const EyeRay& ray, std::uint32_t pixel, std::uint32_t sample,
+                            std::vector<SurfacePoint>& points, Background&& background) const;
+
     const Scene& scene_;
     const RayScene& rays_;
     Shade shade_;
