@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include <render/options.hpp>
+
+#include "exhaustive.hpp"
+#include "illumination.hpp"
+#include "relit_shader.hpp"
+#include "visibility_cuts.hpp"
+
+namespace relight {
+
+/// How the tree over the directions is built.
+enum class TreeKind : std::uint8_t { geometric, data_driven };
+
+/// The command line of lightcuts-relight with its defaults.
+struct Options {
+    enum class Action { help, version, prepare, render };
+
+    Action action = Action::help;
+    std::string help;  ///< the text to print when the action is `help`
+
+    /// The scene, the camera and the picture's size, by the renderer's own options, and the output of either action.
+    render::Options view;
+
+    // prepare
+    std::uint32_t directions = 32768;
+    CutOptions cuts;
+    double longest_edge = 0.0;  ///< to which the mesh is refined; 0: as it is
+    TreeKind tree = TreeKind::geometric;
+    double beta = 0.45;  ///< of a data-driven tree
+
+    // render
+    std::filesystem::path cut_file;
+    std::filesystem::path map;
+    float map_scale = 1.0f;
+    double rotation = 0.0;  ///< degrees
+    int frames = 1;
+    double turn = 0.0;  ///< degrees from frame to frame
+    IlluminationOptions illumination;
+    RelitOptions relit;
+    std::optional<Truth> exhaustive;
+};
+
+/// throws: render::usage_error, one line.
+Options parse_options(int argc, const char* const* argv);
+
+}  // namespace relight

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <lightcuts/piecewise/cut_file.hpp>
+#include <lightcuts/piecewise/mapped_file.hpp>
+#include <render/scene.hpp>
+
+#include "directions.hpp"
+#include "site_sky.hpp"
+
+namespace relight {
+
+/// What cuts in a file are good for.
+struct Preparation {
+    std::string scene;              ///< its name, for messages
+    std::uint64_t fingerprint = 0;  ///< of its mesh, as it was loaded
+    double longest_edge = 0.0;      ///< to which the mesh was refined; 0: as it is
+    Sides sides = Sides::both;
+    std::size_t sites = 0;
+};
+
+/// A hash of the mesh and of what lets light pass.
+std::uint64_t mesh_fingerprint(const render::Scene& scene);
+
+/// The bytes of a file: a line of JSON, a tree file, a cut file.
+std::vector<char> relight_file(const Preparation& preparation, const Directions& directions,
+                               std::span<const std::byte> cuts);
+
+/// Visibility cuts and their tree, in a mapped file.
+class RelightFile {
+public:
+    /// throws: invalid_input, one line naming the file, if it cannot be read, is of another kind, cut short or damaged.
+    explicit RelightFile(const std::filesystem::path& path);
+    RelightFile(const RelightFile&) = delete;
+    RelightFile& operator=(const RelightFile&) = delete;
+
+    const Preparation& preparation() const { return preparation_; }
+    const Directions& directions() const { return directions_; }
+    std::size_t bytes() const { return file_.bytes().size(); }
+
+    /// throws: invalid_input unless the file is of `scene`, as it was loaded.
+    void require_scene(const render::Scene& scene) const;
+
+    /// throws: invalid_input naming the file if the cut is damaged. threads: any at once.
+    void read(std::size_t site, lightcuts::PiecewiseConstant<float>& cut) const;
+
+private:
+    std::string name_;
+    lightcuts::MappedFile file_;
+    Preparation preparation_;
+    Directions directions_;
+    std::optional<lightcuts::CutFile> cuts_;
+};
+
+}  // namespace relight

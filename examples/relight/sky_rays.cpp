@@ -1,0 +1,22 @@
+#include "sky_rays.hpp"
+
+#include <cstddef>
+
+#include <lightcuts/adapt/embree.hpp>
+
+namespace relight {
+
+void SkyRays::look(const glm::vec3& from, std::span<const glm::vec3> directions, std::span<float> shares) {
+    if (rays_.transmissive()) {
+        for (std::size_t i = 0; i < directions.size(); ++i) {
+            const glm::vec3 passed = rays_.to_infinity(from, directions[i]);
+            shares[i] = (passed.x + passed.y + passed.z) / 3.0f;
+        }
+        return;
+    }
+    queries_.resize(directions.size());
+    for (std::size_t i = 0; i < directions.size(); ++i) queries_[i] = {from, 0, directions[i], 0, 0, true};
+    lightcuts::EmbreeOracle(rays_.embree_scene()).many(queries_, shares);
+}
+
+}  // namespace relight
