@@ -129,7 +129,11 @@ void shade_exhaustively(const SeenPoints& seen, const Sites& sites, const Direct
         glm::vec3& sum = radiance[order[k]];
         switch (truth) {
             case Truth::pixels: sum = scratch.pixels(point, power); break;
-            case Truth::vertices: sum = scratch.vertices(point, sites, power); break;
+            case Truth::vertices: {
+                const bool is_dark = sides == Sides::front && shows_back(sites, point);
+                sum = is_dark ? glm::vec3(0.0f) : scratch.vertices(point, sites, power);
+                break;
+            }
             case Truth::none: {
                 reflect(point, directions, power, scratch.reflected);
                 glm::dvec3 total(0.0);

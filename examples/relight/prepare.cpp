@@ -1,6 +1,7 @@
 #include "prepare.hpp"
 
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <string>
 #include <utility>
@@ -26,13 +27,16 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 
 void say(const Mesh& mesh, const Options& options, const CutStatistics& cuts, std::size_t bytes, double tree_seconds,
          double seconds) {
-    std::fprintf(stderr,
-                 "%zu triangles, %zu vertices to look from, %u directions\n"
-                 "visibility cuts: mean size %.1f, largest %zu; RMS of visibility %.4f; file %.2f MB\n"
-                 "tree %.1f s, cuts %.1f s, %.3g rays; time of the cuts / time of their rays alone: %.2f\n",
-                 mesh.scene.triangles.size(), cuts.sites, options.directions, cuts.mean_size(), cuts.largest,
-                 cuts.rms(), static_cast<double>(bytes) / 1e6, tree_seconds, seconds, static_cast<double>(cuts.rays),
-                 cuts.ray_seconds > 0.0 ? cuts.seconds / cuts.ray_seconds : 1.0);
+    std::fprintf(
+        stderr,
+        "%zu triangles, %zu vertices to look from, %u directions\n"
+        "visibility cuts: mean size %.1f, largest %zu; RMS of visibility %.4f over the directions asked for, %.4f over "
+        "all; file %.2f MB\n"
+        "tree %.1f s, cuts %.1f s, %.3g rays; time of the cuts / time of their rays alone: %.2f\n",
+        mesh.scene.triangles.size(), cuts.sites, options.directions, cuts.mean_size(), cuts.largest, cuts.rms(),
+        cuts.rms() * std::sqrt(static_cast<double>(cuts.rays) / (static_cast<double>(cuts.sites) * options.directions)),
+        static_cast<double>(bytes) / 1e6, tree_seconds, seconds, static_cast<double>(cuts.rays),
+        cuts.ray_seconds > 0.0 ? cuts.seconds / cuts.ray_seconds : 1.0);
 }
 
 }  // namespace

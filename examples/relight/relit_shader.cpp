@@ -123,7 +123,7 @@ RelitStatistics RelitShader::shade(const Illumination& light, const RelitOptions
         scratch.statistics.clusters += scratch.lights.size() * (begins_[group + 1] - begins_[group]);
         for (std::size_t i = begins_[group]; i < begins_[group + 1]; ++i) {
             const SurfacePoint& point = seen_.points[order_[i]];
-            const bool is_dark = sides_ == Sides::front && shows_back(point);
+            const bool is_dark = sides_ == Sides::front && shows_back(sites_, point);
             radiance[order_[i]] = is_dark ? glm::vec3(0.0f) : shade(point, light, options, scratch);
             scratch.statistics.backs += is_dark ? 1 : 0;
         }
@@ -138,11 +138,6 @@ RelitStatistics RelitShader::shade(const Illumination& light, const RelitOptions
         sum.backs += scratch.statistics.backs;
     }
     return sum;
-}
-
-bool RelitShader::shows_back(const SurfacePoint& point) const {
-    const glm::uvec3 corners = sites_.of_triangle[point.triangle];
-    return glm::dot(sites_.sites[corners.x].normal, point.geometric_normal) < 0.0f;
 }
 
 void RelitShader::merge(std::span<const std::uint32_t> points, const Illumination& light, Scratch& scratch) const {

@@ -56,8 +56,6 @@ private:
     glm::vec3 shade(const render::SurfacePoint& point, const Illumination& light, const RelitOptions& options,
                     Scratch& scratch) const;
 
-    bool shows_back(const render::SurfacePoint& point) const;
-
     const Sites& sites_;
     const SeenPoints& seen_;
     Sides sides_;

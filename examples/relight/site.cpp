@@ -123,4 +123,9 @@ Sites sites_of(const render::Scene& scene) {
     return result;
 }
 
+bool shows_back(const Sites& sites, const render::SurfacePoint& point) {
+    const Site& corner = sites.sites[sites.of_triangle[point.triangle].x];
+    return glm::dot(corner.normal, point.geometric_normal) < 0.0f;
+}
+
 }  // namespace relight

@@ -5,6 +5,7 @@
 
 #include <glm/vec3.hpp>
 #include <render/scene.hpp>
+#include <render/surfaces/surface.hpp>
 
 namespace relight {
 
@@ -27,5 +28,8 @@ struct Sites {
 /// inside of them: at the foot of a wall it looks from the wall.
 /// pre: nothing moves.
 Sites sites_of(const render::Scene& scene);
+
+/// True if `point` shows the side from which the corners of its triangle run clockwise.
+bool shows_back(const Sites& sites, const render::SurfacePoint& point);
 
 }  // namespace relight
