@@ -137,7 +137,7 @@ void declare_render(CLI::App& command, Options& options) {
                "degrees from 0 to 180", options.illumination.cluster_angle);
     app.number("--illumination-error", "R", "share of all light to which it is refined by error, then by value (0.01)",
                0.0, 1e6, "a number of at least 0", options.illumination.relative_error);
-    app.number("--gloss-detail", "R", "largest radius of a cluster in a glossy lobe, as a share of its width (0.5)",
+    app.number("--gloss-detail", "R", "largest radius of a cluster in a glossy lobe, as a share of its width (0.6)",
                0.01f, 100.0f, "a number from 0.01 to 100", options.relit.gloss_detail);
     app.text(
         "--exhaustive", "pixels|vertices|none",

@@ -18,7 +18,7 @@ namespace relight {
 struct RelitOptions {
     /// Clusters about the mirror direction of a glossy point are split until their radius is at most so much of the
     /// lobe's width, or they are single directions.
-    float gloss_detail = 0.5f;
+    float gloss_detail = 0.6f;
 };
 
 /// What points took. Independent of the number of threads.
