@@ -160,8 +160,12 @@ TEST(Compact, TakesThreeBytesAPieceAndLargeSteps) {
     EXPECT_EQ(at_leaves(found), at_leaves(f));
 }
 
+/// Of the running test alone: others run at the same time.
 struct Folder {
-    std::filesystem::path path = std::filesystem::current_path() / "piecewise-storage";
+    std::filesystem::path path = std::filesystem::current_path() /
+                                 (std::string("storage-") +
+                                  testing::UnitTest::GetInstance()->current_test_info()->test_suite_name() + "-" +
+                                  testing::UnitTest::GetInstance()->current_test_info()->name());
     Folder() {
         std::filesystem::remove_all(path);
         std::filesystem::create_directory(path);
