@@ -219,9 +219,9 @@ private:
 };
 
 template <class F>
-constexpr bool is_whole_tree = false;
+inline constexpr bool is_whole_tree = false;
 template <int Channels>
-constexpr bool is_whole_tree<WholeTree<Channels>> = true;
+inline constexpr bool is_whole_tree<WholeTree<Channels>> = true;
 
 template <int Channels>
 std::uint32_t leaf_count_of(const WholeTree<Channels>& f) {

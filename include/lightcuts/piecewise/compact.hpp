@@ -45,7 +45,7 @@ inline float quantization_error(float least, float largest, ValueBits bits) {
 
 namespace detail {
 
-constexpr std::size_t cut_header_size = 6 * 4;
+constexpr std::size_t cut_header_size = 24;
 
 /// The upper half of the bits of the next float that has no lower half. pre: x >= 0.
 constexpr std::uint16_t round_up_to_16_bits(float x) {

@@ -30,6 +30,7 @@ inline std::vector<std::uint32_t> even_clusters(const ClusterTree& tree, std::si
         }
     }
     std::vector<std::uint32_t> nodes;
+    nodes.reserve(heap.size());
     for (const auto& [leaves, n] : heap) nodes.push_back(n);
     std::sort(nodes.begin(), nodes.end());
     return nodes;
