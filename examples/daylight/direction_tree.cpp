@@ -7,6 +7,7 @@
 #include <lightcuts/piecewise/even_directions.hpp>
 #include <lightcuts/tree/build/divide.hpp>
 #include <lightcuts/tree/build/two_centers.hpp>
+#include <lightcuts/tree/leaf_order.hpp>
 
 namespace daylighting {
 
@@ -30,16 +31,12 @@ DirectionTree make_direction_tree(std::size_t count) {
     std::vector<lightcuts::PointItem> items;
     items.reserve(count);
     for (const glm::vec3& direction : spread) items.push_back({direction, 1.0f});
-    const lightcuts::ClusterTree built = lightcuts::divide(items, lightcuts::TwoCenters{});
+    lightcuts::LeafOrder ordered = lightcuts::in_leaf_order(lightcuts::divide(items, lightcuts::TwoCenters{}));
 
     DirectionTree result;
-    std::vector<std::uint32_t> words = built.words();
-    for (std::uint32_t node = 0; node < built.size(); ++node) {
-        if (!built.is_leaf(node)) continue;
-        words[node] = lightcuts::ClusterTree::leaf_word(static_cast<std::uint32_t>(result.directions.size()));
-        result.directions.push_back(spread[built.item(node)]);
-    }
-    result.tree = lightcuts::ClusterTree(std::move(words));
+    result.tree = std::move(ordered.tree);
+    result.directions.reserve(count);
+    for (const std::uint32_t item : ordered.items) result.directions.push_back(spread[item]);
     return result;
 }
 

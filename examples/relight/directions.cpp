@@ -10,6 +10,7 @@
 #include <lightcuts/piecewise/tree_file.hpp>
 #include <lightcuts/tree/build/divide.hpp>
 #include <lightcuts/tree/build/two_centers.hpp>
+#include <lightcuts/tree/leaf_order.hpp>
 #include <render/tbb_executor.hpp>
 
 namespace relight {
@@ -63,14 +64,10 @@ std::vector<glm::vec3> leaves_of(const lightcuts::ClusterTree& tree, std::span<c
 }  // namespace
 
 Directions make_directions(const lightcuts::ClusterTree& tree, std::span<const glm::vec3> directions) {
+    lightcuts::LeafOrder ordered = lightcuts::in_leaf_order(tree);
     Directions result;
-    std::vector<std::uint32_t> words = tree.words();
-    for (std::uint32_t n = 0; n < tree.size(); ++n) {
-        if (!tree.is_leaf(n)) continue;
-        words[n] = lightcuts::ClusterTree::leaf_word(static_cast<std::uint32_t>(result.leaves.size()));
-        result.leaves.push_back(glm::normalize(directions[tree.item(n)]));
-    }
-    result.tree = lightcuts::ClusterTree(std::move(words));
+    result.tree = std::move(ordered.tree);
+    for (const std::uint32_t item : ordered.items) result.leaves.push_back(glm::normalize(directions[item]));
     result.clusters = clusters_of(result.tree, result.leaves);
     // As a file has them, where a leaf's direction is that of its cluster.
     result.leaves = leaves_of(result.tree, result.clusters);
