@@ -1,9 +1,9 @@
 #pragma once
 
 #include <cmath>
-#include <numbers>
 
 #include "../core/assertion.hpp"
+#include "../core/henyey_greenstein.hpp"
 #include "light.hpp"
 
 namespace lightcuts {
@@ -48,8 +48,7 @@ ScatteringPointLight<S> scattering_point_light(const glm::vec3& position, const 
                                                float g) {
     LIGHTCUTS_ASSERT(g > -1.0f && g < 1.0f);
     const float asymmetry = std::fabs(g);
-    const double narrow = 1.0 - static_cast<double>(asymmetry);
-    const double peak = (1.0 + static_cast<double>(asymmetry)) / (4.0 * std::numbers::pi * narrow * narrow);
+    const double peak = henyey_greenstein(static_cast<double>(asymmetry), 0.0);
     return {position, g < 0.0f ? -direction : direction, power * static_cast<float>(peak), {asymmetry}};
 }
 
