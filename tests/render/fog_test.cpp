@@ -152,7 +152,7 @@ TEST(FogParticles, ScatterWhatFogTakesOfDistantLight) {
 
 /// A closed room of side 2 whose walls emit radiance 1, albedo 0.5, filled with fog that absorbs nothing: the radiance
 /// is 1 / (1 - 0.5) everywhere and in all directions, whatever the fog.
-class FoggyFurnace : public testing::TestWithParam<float> {
+class FoggyFurnace : public testing::Test {
 protected:
     static render::Scene room(float extinction, float anisotropy) {
         render::Scene s;
@@ -186,10 +186,13 @@ protected:
 
     static double radiance(const render::Scene& s) {
         render::Options options;
+        options.clamp = {};
+        return radiance(s, options);
+    }
+    static double radiance(const render::Scene& s, render::Options options) {
         options.method = "multidimensional";
         options.spp = 8;
         options.quiet = true;
-        options.clamp = {};
         const render::RayScene rays(s);
         const auto shader = render::make_shader(s, rays, options);
         const render::EyePathTracer surfaces(s, rays, render::Shade::full);
@@ -205,13 +208,28 @@ protected:
     }
 };
 
-TEST_P(FoggyFurnace, IsAsBrightAsWithoutFog) {
+class FoggyFurnaces : public FoggyFurnace, public testing::WithParamInterface<float> {};
+
+TEST_P(FoggyFurnaces, AreAsBrightAsWithoutFog) {
     const render::Scene s = room(GetParam(), 0.4f);
     EXPECT_EQ(s.volume_lights.size() > 100, GetParam() > 0.01f);
     // Points of the fog lie close to lights in it, so that the sum varies widely.
     EXPECT_NEAR(radiance(s), 2.0, 0.08);
 }
 
-INSTANTIATE_TEST_SUITE_P(Extinction, FoggyFurnace, testing::Values(1e-6f, 0.05f, 0.5f, 2.0f));
+/// How much a virtual light on a surface may add does not depend on how strongly fog scatters ahead.
+TEST_F(FoggyFurnace, LightsOnSurfacesAreClampedAsWithoutThoseInFog) {
+    render::Scene s = room(1e-6f, 0.0f);
+    render::Options options;
+    options.adaptation = 0.2f;
+    const double without = radiance(s, options);
+    const double free = radiance(s);
+    EXPECT_LT(without, 0.98 * free) << "some are clamped";
+    // It shines away from the room, from outside of it.
+    s.volume_lights.push_back({{V(0.0f, 50.0f, 0.0f), V(0.0f, 1.0f, 0.0f), V(1e6f), {0.99f}}});
+    EXPECT_NEAR(radiance(s, options), without, 0.01 * without);
+}
+
+INSTANTIATE_TEST_SUITE_P(Extinction, FoggyFurnaces, testing::Values(1e-6f, 0.05f, 0.5f, 2.0f));
 
 }  // namespace

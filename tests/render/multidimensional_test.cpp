@@ -157,6 +157,19 @@ TEST_F(Programs, FogAttenuatesWhatIsSeenAndScattersWhatItIsLitBy) {
     EXPECT_GT(mean_of(render::read_exr(folder / "lit.exr")), dim);
 }
 
+TEST_F(Programs, SidesOfPairsMayBeChosenBySize) {
+    const std::string scene = "room.obj --area-points 300 --size 24x18 --spp 9 --quiet" + view;
+    ASSERT_EQ(render(scene + " --method exhaustive -o exact.exr").status, 0);
+    ASSERT_EQ(render(scene + " --method multidimensional").status, 0);
+    const Json by_bounds = report("render.json");
+    ASSERT_EQ(render(scene + " --method multidimensional --pair-sides sizes --reference exact.exr").status, 0);
+    const Json by_sizes = report("render.json");
+    EXPECT_NE(by_sizes.at("cut_size"), by_bounds.at("cut_size"));
+    EXPECT_EQ(by_sizes.at("options").at("pair_sides"), "sizes");
+    EXPECT_LT(by_sizes.at("error").at("relative_rmse"), 0.025);
+    EXPECT_EQ(render("room.obj --pair-sides halves" + view).status, 2);
+}
+
 TEST_F(Programs, RefuseWhatALensCannotBe) {
     EXPECT_EQ(render("room.obj --focus 3" + view).status, 2);
     EXPECT_EQ(render("room.obj --aperture -1" + view).status, 2);
