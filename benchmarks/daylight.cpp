@@ -151,7 +151,7 @@ nlohmann::json errors(const SitePlan& place, const DirectionTree& directions, co
             }
         }
     }
-    const float lift = sensor_lift(site.scene);
+    const RayStarts starts(site.scene);
     for (std::size_t s = 0; s < count; ++s) {
         const glm::vec3 normal = site.sensors.sensors[s].normal;
         for (std::size_t h = 0; h < hours.size(); ++h) {
@@ -161,8 +161,7 @@ nlohmann::json errors(const SitePlan& place, const DirectionTree& directions, co
             exact[s][h] += static_cast<double>(visibility[s][hours[h].sun_place]) * cosine *
                            hours[h].sky.direct_illuminance();
             const Sensor& sensor = site.sensors.sensors[s];
-            const glm::vec3 from = glm::vec3(sensor.position - site.scene.origin) + lift * sensor.normal;
-            const glm::vec3 seen = site.rays.to_infinity(from, hours[h].towards_sun);
+            const glm::vec3 seen = site.rays.to_infinity(starts(sensor), hours[h].towards_sun);
             by_rays[s][h] += static_cast<double>(seen.r + seen.g + seen.b) / 3.0 * cosine *
                              hours[h].sky.direct_illuminance();
         }

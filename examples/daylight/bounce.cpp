@@ -97,7 +97,7 @@ private:
 
 Bounce find_bounce(const render::Scene& scene, const render::RayScene& rays, std::span<const Sensor> sensors,
                    const BounceSettings& settings) {
-    const float lift = sensor_lift(scene);
+    const RayStarts starts(scene);
     const Normals normals;
     const auto cell_of = [&](const Reflector& r) -> Cell {
         const double far = static_cast<double>(r.distance) / (near_spacings * settings.spacing);
@@ -109,7 +109,7 @@ Bounce find_bounce(const render::Scene& scene, const render::RayScene& rays, std
     const auto seen_from = [&](std::size_t s, std::vector<SeenCell>& seen) {
         const Sensor& sensor = sensors[s];
         const lightcuts::Basis frame{glm::dvec3(sensor.normal)};
-        const glm::vec3 from = glm::vec3(sensor.position - scene.origin) + lift * sensor.normal;
+        const glm::vec3 from = starts(sensor);
         const double turn = lightcuts::uniform01(lightcuts::hash_keys(s, 0)),
                      shift = lightcuts::uniform01(lightcuts::hash_keys(s, 1));
         seen.clear();

@@ -1,7 +1,5 @@
-#include <chrono>
 #include <cstdio>
-#include <exception>
-#include <new>
+#include <string>
 #include <system_error>
 #include <vector>
 
@@ -10,20 +8,21 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 #include <lightcuts/core/invalid_input.hpp>
+#include <render/fingerprint.hpp>
 #include <render/interrupt.hpp>
 #include <render/io/escape.hpp>
 #include <render/io/load_scene.hpp>
 #include <render/io/output_file.hpp>
 #include <render/io/standard_streams.hpp>
-#include <render/memory.hpp>
 #include <render/program.hpp>
 #include <render/progress.hpp>
 #include <render/rays/ray_scene.hpp>
+#include <render/run_program.hpp>
+#include <render/stopwatch.hpp>
 
 #include "annual.hpp"
 #include "bounce.hpp"
 #include "options.hpp"
-#include "scene_hash.hpp"
 #include "sun_rays.hpp"
 #include "trace.hpp"
 #include "visibility_file.hpp"
@@ -34,17 +33,9 @@ namespace {
 
 using namespace daylighting;
 
-enum ExitStatus { done = 0, bad_input = 1, bad_command_line = 2, stopped = render::interrupted_status };
+using render::ExitStatus;
 
 void say(const std::string& text) { std::fprintf(stderr, "lightcuts-daylight: %s\n", render::escaped(text).c_str()); }
-
-class Stopwatch {
-public:
-    double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-
-private:
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 template <class Number>
 std::string text_of(const char* format, Number value) {
@@ -76,7 +67,7 @@ ExitStatus trace(const Options& options) {
     std::vector<std::filesystem::path> inputs;
     if (!options.sensors.empty()) inputs.push_back(options.sensors);
     require_usable({options.output}, inputs);
-    const Stopwatch watch;
+    const render::Stopwatch watch;
     const SensorSet sensors = options.grid ? sensors_of(*options.grid, options.up)
                                            : read_sensors(options.sensors, options.up);
     const render::Scene scene = render::load_scene(options.scene);
@@ -102,10 +93,10 @@ ExitStatus trace(const Options& options) {
         say(result.finished == 0 ? std::string("interrupted before anything was finished; nothing was written")
                                  : "interrupted; " + std::to_string(result.finished) + " of " + std::to_string(count) +
                                        " sensors are in " + unfinished.string() + ", and --resume goes on with them");
-        return stopped;
+        return render::stopped;
     }
     const std::vector<std::byte> file = visibility_file(directions, sensors, bounce, result.sky, result.sun,
-                                                        scene_hash(scene));
+                                                        render::occlusion_hash(scene));
     render::write_file(options.output, {reinterpret_cast<const char*>(file.data()), file.size()});
     std::filesystem::remove(unfinished, ignored);
     if (!options.quiet) {
@@ -118,7 +109,7 @@ ExitStatus trace(const Options& options) {
             text_of("%.1f", static_cast<double>(file.size()) / 1e6) + " MB, " + text_of("%.1f", watch.seconds()) +
             " s" + (result.resumed > 0 ? ", " + std::to_string(result.resumed) + " sensors by an earlier run" : ""));
     }
-    return done;
+    return render::done;
 }
 
 std::vector<std::filesystem::path> year_outputs(const Options& options) {
@@ -144,7 +135,7 @@ std::vector<double> add_suns(const Options& options, const VisibilityFile& trace
     }
     const render::Scene scene = render::load_scene(options.scene);
     require_usable(year_outputs(options), scene.files);
-    if (scene_hash(scene) != traced.scene()) {
+    if (render::occlusion_hash(scene) != traced.scene()) {
         throw lightcuts::invalid_input(options.scene + ": is not the scene that " + options.visibility.string() +
                                        " was traced in, or has changed; trace it anew");
     }
@@ -159,7 +150,7 @@ std::vector<double> add_suns(const Options& options, const VisibilityFile& trace
 
 ExitStatus year(const Options& options) {
     require_usable(year_outputs(options), {options.visibility, options.weather});
-    const Stopwatch watch;
+    const render::Stopwatch watch;
     const Weather weather = read_epw(options.weather);
     const VisibilityFile traced(options.visibility);
     const SensorSet& sensors = traced.sensors();
@@ -200,7 +191,7 @@ ExitStatus year(const Options& options) {
             std::to_string(hours.size()) + " of them lit, in " + text_of("%.1f", seconds) +
             " s; mean daylight autonomy " + text_of("%.0f", 100.0 * autonomy) + " %" + shown);
     }
-    return done;
+    return render::done;
 }
 
 ExitStatus run(const Options& options) {
@@ -208,29 +199,15 @@ ExitStatus run(const Options& options) {
     if (options.action == Options::Action::version) {
         render::print("lightcuts-daylight " + render::program_version() + "\n");
     }
-    if (options.action != Options::Action::trace && options.action != Options::Action::year) return done;
+    if (options.action != Options::Action::trace && options.action != Options::Action::year) return render::done;
     const int threads = options.threads > 0 ? options.threads : tbb::this_task_arena::max_concurrency();
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
     tbb::task_arena arena(threads);
     return arena.execute([&] { return options.action == Options::Action::trace ? trace(options) : year(options); });
 }
 
-ExitStatus fail(ExitStatus status, const std::string& message) {
-    say(message);
-    return status;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-    render::guard_standard_streams();
-    render::watch_signals("lightcuts-daylight");
-    render::watch_termination("lightcuts-daylight");
-    try {
-        return run(parse_options(argc, argv));
-    } catch (const render::usage_error& e) {
-        return fail(bad_command_line, std::string(e.what()) + " (--help lists the options)");
-    } catch (const std::bad_alloc&) {
-        return fail(bad_input, render::memory_shortage());
-    } catch (const std::exception& e) { return fail(bad_input, render::explanation(e)); }
+    return render::run_program("lightcuts-daylight", [&] { return run(parse_options(argc, argv)); });
 }

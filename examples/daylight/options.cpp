@@ -1,48 +1,23 @@
 #include "options.hpp"
 
-#include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <functional>
+#include <optional>
+#include <string>
 #include <string_view>
-#include <system_error>
-#include <vector>
 
 #include <CLI/CLI.hpp>
-
 #include <render/io/escape.hpp>
-#include <render/rays/ray_tracer.hpp>
+#include <render/option_declaration.hpp>
 
 #include "year_files.hpp"
 
 namespace daylighting {
 namespace {
 
+using render::number_in;
+using render::refuse;
+using render::to_number;
 using render::usage_error;
-
-[[noreturn]] void refuse(const std::string& option, const std::string& value, const std::string& wanted) {
-    throw usage_error(option + " " + value + ": expected " + wanted);
-}
-
-/// All of `text` as a finite number.
-template <class Number>
-std::optional<Number> to_number(std::string_view text) {
-    Number value{};
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-    if constexpr (std::is_floating_point_v<Number>) {
-        if (!std::isfinite(value)) return std::nullopt;
-    }
-    return value;
-}
-
-template <class Number>
-Number number_in(const std::string& option, const std::string& text, Number lowest, Number highest,
-                 const std::string& wanted) {
-    const auto value = to_number<Number>(text);
-    if (!value || *value < lowest || *value > highest) refuse(option, text, wanted);
-    return *value;
-}
+using Words = render::OptionDeclaration;
 
 /// X,Y,Z,X,Y,Z
 void set_grid(LevelGrid& grid, const std::string& text) {
@@ -72,40 +47,9 @@ void set_occupancy(Occupancy& occupancy, const std::string& text) {
     occupancy = {*from, *to};
 }
 
-void set_isa(Options& options, const std::string& name) {
-    const std::vector<std::string>& known = render::isa_names();
-    if (std::find(known.begin(), known.end(), name) == known.end()) {
-        refuse("--isa", name, "one of " + render::listed(known));
-    }
-    options.isa = name;
-}
-
-/// Options of one subcommand.
-class Words {
-public:
-    explicit Words(CLI::App& app) : app_(app) {}
-
-    CLI::Option* text(const std::string& names, const std::string& type, const std::string& help,
-                      std::function<void(const std::string&)> set) {
-        return app_.add_option_function<std::string>(names, std::move(set), help)->type_name(type);
-    }
-    CLI::Option* file(const std::string& names, const std::string& help, std::filesystem::path& path) {
-        const std::string name = names.substr(names.find("--"));
-        return text(names, "FILE", help, [name, &path](const std::string& s) {
-            if (s.empty() || !std::filesystem::path(s).has_filename()) refuse(name, "'" + s + "'", "a file name");
-            path = s;
-        });
-    }
-
-private:
-    CLI::App& app_;
-};
-
 void add_common(CLI::App& app, Options& options) {
     Words words(app);
-    words.text("--threads", "N", "threads (all)", [&](const std::string& s) {
-        options.threads = number_in<int>("--threads", s, 1, 4096, "a whole number from 1 to 4096");
-    });
+    words.threads(options.threads);
     app.add_flag("--quiet", options.quiet, "print nothing but errors");
 }
 
@@ -127,19 +71,15 @@ void add_trace(CLI::App& app, Options& options, LevelGrid& grid, bool& has_grid,
         if (s != "y" && s != "z") refuse("--up", s, "y or z");
         options.up = s == "y" ? UpAxis::y : UpAxis::z;
     });
-    words.text("--directions", "N", "spread over the sphere (32768)", [&](const std::string& s) {
-        options.directions = number_in<std::size_t>("--directions", s, 64, 1 << 20,
-                                                    "a whole number from 64 to 1048576");
-    });
-    words.text("--error", "R", "L2 error of what a sensor sees, as a share of it (0.05)", [&](const std::string& s) {
-        options.error = number_in("--error", s, 0.0, 1.0, "a number from 0 to 1");
-    });
+    words.number<std::size_t>("--directions", "N", "spread over the sphere (32768)", 64, 1 << 20,
+                              "a whole number from 64 to 1048576", options.directions);
+    words.number("--error", "R", "L2 error of what a sensor sees, as a share of it (0.05)", 0.0, 1.0,
+                 "a number from 0 to 1", options.error);
     words.text("--bounce", "S", "light that surfaces reflect once, by points about S apart (none)",
                [&](const std::string& s) {
                    options.bounce = number_in("--bounce", s, 1e-6, 1e6, "a number from 1e-6 to 1e6");
                });
-    words.text("--isa", "NAME", "instruction set of the ray tracer (the best)",
-               [&](const std::string& s) { set_isa(options, s); });
+    words.isa("instruction set of the ray tracer (the best)", options.isa);
     app.add_flag("--resume", options.resume, "go on with the interrupted run that --output names");
     add_common(app, options);
 }
@@ -152,33 +92,23 @@ void add_year(CLI::App& app, Options& options) {
     words.file("--matrix", "the same for Radiance, a sensor a line", options.matrix);
     words.file("--annual", "CSV of a year's figures, a sensor a line", options.annual);
     words.file("--picture", "PNG of a grid in false colors", options.picture);
-    words.text("--figure", "NAME", "that it shows: " + render::listed(figure_names()) + " (autonomy)",
-               [&](const std::string& s) {
-                   bool is_known = false;
-                   for (const std::string& name : figure_names()) is_known = is_known || name == s;
-                   if (!is_known) refuse("--figure", s, "one of " + render::listed(figure_names()));
-                   options.figure = s;
-               });
+    words.choice("--figure", "NAME", "that it shows: " + render::listed(figure_names()) + " (autonomy)", figure_names(),
+                 options.figure);
     words.text("--scene", "SCENE",
                "that was traced, for a ray to the sun of each hour; else the nearest direction counts",
                [&](const std::string& s) {
                    if (s.empty()) refuse("--scene", "''", "a scene");
                    options.scene = s;
                });
-    words.text("--isa", "NAME", "instruction set of these rays (the best)",
-               [&](const std::string& s) { set_isa(options, s); });
-    words.text("--north", "DEG", "by which the scene's north is turned from true north towards the east (0)",
-               [&](const std::string& s) {
-                   options.turned = number_in("--north", s, -360.0, 360.0, "degrees from -360 to 360");
-               });
-    words.text("--ground", "ALBEDO", "of what is below the horizon (0.2)", [&](const std::string& s) {
-        options.ground = number_in("--ground", s, 0.0, 1.0, "a number from 0 to 1");
-    });
+    words.isa("instruction set of these rays (the best)", options.isa);
+    words.number("--north", "DEG", "by which the scene's north is turned from true north towards the east (0)", -360.0,
+                 360.0, "degrees from -360 to 360", options.turned);
+    words.number("--ground", "ALBEDO", "of what is below the horizon (0.2)", 0.0, 1.0, "a number from 0 to 1",
+                 options.ground);
     words.text("--hours", "FROM-TO", "of the day in which the room is used (8-18)",
                [&](const std::string& s) { set_occupancy(options.occupancy, s); });
-    words.text("--target", "LUX", "of the daylight autonomy (300)", [&](const std::string& s) {
-        options.target = number_in("--target", s, 0.0, 1e6, "a number from 0 to 1e6");
-    });
+    words.number("--target", "LUX", "of the daylight autonomy (300)", 0.0, 1e6, "a number from 0 to 1e6",
+                 options.target);
     add_common(app, options);
 }
 

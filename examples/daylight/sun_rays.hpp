@@ -1,14 +1,13 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
-#include <lightcuts/visibility/query.hpp>
 #include <render/rays/ray_scene.hpp>
 #include <render/scene.hpp>
 
 #include "hourly_sky.hpp"
 #include "sensors.hpp"
+#include "visibility.hpp"
 
 namespace daylighting {
 
@@ -16,22 +15,18 @@ namespace daylighting {
 /// threads: may be asked by many at once, each with a scratch.
 class SunRays {
 public:
-    struct Scratch {
-        std::vector<lightcuts::VisibilityQuery> queries;
-        std::vector<float> answers;
-    };
+    using Scratch = SensorRays;
 
-    /// Refers to all of these.
+    /// Refers to `rays` and `hours`.
     SunRays(const render::Scene& scene, const render::RayScene& rays, std::span<const LitHour> hours);
 
     /// As SunList::add. cost: a ray each hour in which the sun is before the sensor.
     double add(const Sensor& sensor, const Weather& weather, std::span<float> lux, Scratch& scratch) const;
 
 private:
-    const render::Scene& scene_;
     const render::RayScene& rays_;
     std::span<const LitHour> hours_;
-    float lift_;
+    RayStarts starts_;
 };
 
 }  // namespace daylighting

@@ -9,6 +9,7 @@
 
 #include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/parallel_for.h>
+#include <render/fingerprint.hpp>
 #include <render/interrupt.hpp>
 #include <render/io/content_hash.hpp>
 #include <render/program.hpp>
@@ -16,7 +17,6 @@
 
 #include "chunk_file.hpp"
 #include "facing.hpp"
-#include "scene_hash.hpp"
 #include "sensor_cuts.hpp"
 #include "visibility.hpp"
 #include "visibility_file.hpp"
@@ -62,7 +62,7 @@ std::uint64_t fingerprint_of(const render::Scene& scene, const render::RayScene&
                              std::span<const Sensor> sensors, const TraceSettings& settings) {
     render::ContentHash hash;
     hash.add(render::program_build()).add(rays.tracer().isa()).add(settings.error);
-    hash.add(scene_hash(scene));
+    hash.add(render::occlusion_hash(scene));
     hash.add(directions.directions);
     for (const Sensor& s : sensors) {
         for (int c = 0; c < 3; ++c) hash.add(s.position[c]);

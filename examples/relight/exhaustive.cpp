@@ -10,9 +10,8 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <lightcuts/core/lanes.hpp>
 #include <render/progress.hpp>
+#include <render/rays/sky_rays.hpp>
 #include <render/surfaces/surface_material.hpp>
-
-#include "sky_rays.hpp"
 
 namespace relight {
 
@@ -39,7 +38,7 @@ void reflect(const SurfacePoint& point, const Directions& directions, std::span<
 
 class PixelSum {
 public:
-    PixelSum(const Directions& directions, const render::RayScene& rays) : directions_(directions), sky_(rays) {}
+    PixelSum(const Directions& directions, const render::RayScene& rays) : directions_(directions), rays_(rays) {}
 
     glm::vec3 operator()(const SurfacePoint& point, std::span<const glm::vec3> power) {
         reflect(point, directions_, power, reflected_);
@@ -56,7 +55,7 @@ public:
                 asked_.push_back(directions_.leaves[i]);
             }
             answers_.resize(lit_.size());
-            sky_.look(is_behind ? behind : point.ray_origin, asked_, answers_);
+            sky_.look(rays_, is_behind ? behind : point.ray_origin, asked_, answers_);
             for (std::size_t k = 0; k < lit_.size(); ++k) sum += glm::dvec3(lit_[k]) * static_cast<double>(answers_[k]);
         }
         return glm::vec3(sum);
@@ -64,7 +63,8 @@ public:
 
 private:
     const Directions& directions_;
-    SkyRays sky_;
+    const render::RayScene& rays_;
+    render::SkyRays sky_;
     std::vector<glm::vec3> reflected_, lit_, asked_;
     std::vector<float> answers_;
 };

@@ -1,14 +1,10 @@
 #include "options.hpp"
 
-#include <algorithm>
-#include <functional>
 #include <limits>
-#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <render/io/escape.hpp>
-#include <render/option_value.hpp>
-#include <render/rays/ray_tracer.hpp>
+#include <render/option_declaration.hpp>
 
 namespace relight {
 
@@ -18,50 +14,18 @@ using render::number_in;
 using render::refuse;
 using render::usage_error;
 
-using Setter = std::function<void(const std::string&)>;
-
-/// Declares the options of one command.
-class Declaration {
-public:
-    explicit Declaration(CLI::App& app) : app_(app) { app.set_help_flag("-h,--help", "print this text"); }
-
-    CLI::Option* text(const std::string& names, const std::string& type, const std::string& help, Setter set) {
-        return app_.add_option_function<std::string>(names, std::move(set), help)->type_name(type);
-    }
-    template <class Number>
-    void number(const std::string& name, const std::string& type, const std::string& help, Number lowest,
-                Number highest, const std::string& wanted, Number& value) {
-        text(name, type, help,
-             [=, &value](const std::string& s) { value = number_in<Number>(name, s, lowest, highest, wanted); });
-    }
-    CLI::Option* file(const std::string& names, const std::string& help, std::filesystem::path& path) {
-        const std::string name = names.substr(0, names.find(','));
-        return text(names, "FILE", help, [name, &path](const std::string& s) {
-            if (s.empty()) refuse(name, "''", "a file name");
-            path = s;
-        });
-    }
-
-private:
-    CLI::App& app_;
-};
+using Declaration = render::OptionDeclaration;
 
 void declare_common(Declaration& app, Options& options) {
-    app.text("--isa", "NAME",
-             "instruction set of the ray tracer: " + render::listed(render::isa_names()) + " (the best)",
-             [&options](const std::string& s) {
-                 const auto& names = render::isa_names();
-                 if (std::find(names.begin(), names.end(), s) == names.end()) {
-                     refuse("--isa", s, "one of " + render::listed(names));
-                 }
-                 options.view.isa = s;
-             });
-    app.number("--threads", "N", "threads (all)", 1, 4096, "a whole number from 1 to 4096", options.view.threads);
+    app.isa("instruction set of the ray tracer: " + render::listed(render::isa_names()) + " (the best)",
+            options.view.isa);
+    app.threads(options.view.threads);
     app.number<std::uint64_t>("--seed", "N", "of all random choices (1)", 0, std::numeric_limits<std::uint64_t>::max(),
                               "a whole number of at least 0", options.view.seed);
 }
 
 void declare_prepare(CLI::App& command, Options& options) {
+    command.set_help_flag("-h,--help", "print this text");
     Declaration app(command);
     app.text("scene", "SCENE", ".gltf, .glb, .obj or builtin:NAME",
              [&options](const std::string& s) { options.view.scene = s; })
@@ -118,6 +82,7 @@ void declare_camera(Declaration& app, render::Options& view) {
 
 void declare_render(CLI::App& command, Options& options) {
     constexpr float huge = std::numeric_limits<float>::max();
+    command.set_help_flag("-h,--help", "print this text");
     Declaration app(command);
     app.file("cuts", "what `prepare` wrote", options.cut_file)->required();
     app.text("--scene", "SCENE", "of which it was prepared",

@@ -9,9 +9,8 @@
 #include <lightcuts/tree/build/divide.hpp>
 #include <lightcuts/tree/build/two_centers.hpp>
 #include <lightcuts/tree/build/visibility_vectors.hpp>
+#include <render/rays/sky_rays.hpp>
 #include <render/tbb_executor.hpp>
-
-#include "sky_rays.hpp"
 
 namespace relight {
 
@@ -22,17 +21,17 @@ Directions data_driven_directions(std::span<const glm::vec3> directions, std::sp
     std::vector<std::uint8_t> seen(tried * directions.size());
     std::vector<lightcuts::OrientedItem> items(tried);
     struct Scratch {
-        SkyRays sky;
+        render::SkyRays sky;
         std::vector<float> shares;
     };
     tbb::enumerable_thread_specific<Scratch> scratches([&] {
-        return Scratch{SkyRays(rays), std::vector<float>(directions.size())};
+        return Scratch{{}, std::vector<float>(directions.size())};
     });
     tbb::parallel_for(std::size_t{0}, tried, [&](std::size_t k) {
         const Site& site = sites[k * sites.size() / tried];
         items[k] = {site.front, site.normal, 1.0f};
         Scratch& scratch = scratches.local();
-        scratch.sky.look(site.front, directions, scratch.shares);
+        scratch.sky.look(rays, site.front, directions, scratch.shares);
         for (std::size_t i = 0; i < directions.size(); ++i) {
             seen[k * directions.size() + i] = static_cast<std::uint8_t>(scratch.shares[i] * 255.0f + 0.5f);
         }

@@ -1,6 +1,5 @@
 #include "prepare.hpp"
 
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -9,9 +8,11 @@
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>
 #include <lightcuts/piecewise/even_directions.hpp>
+#include <render/fingerprint.hpp>
 #include <render/io/output_file.hpp>
 #include <render/rays/ray_scene.hpp>
 #include <render/rays/ray_tracer.hpp>
+#include <render/stopwatch.hpp>
 
 #include "mesh.hpp"
 #include "pilot.hpp"
@@ -20,10 +21,6 @@
 namespace relight {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 void say(const Mesh& mesh, const Options& options, const CutStatistics& cuts, std::size_t bytes, double tree_seconds,
          double seconds) {
@@ -48,7 +45,7 @@ void prepare(const Options& options) {
     for (const auto& file : scene.files) render::require_apart(options.view.output, file);
     Preparation preparation;
     preparation.scene = scene.name;
-    preparation.fingerprint = mesh_fingerprint(scene);
+    preparation.fingerprint = render::occlusion_hash(scene);
     preparation.longest_edge = options.longest_edge;
     preparation.sides = options.cuts.sides;
     const Mesh mesh = refined(std::move(scene), options.longest_edge);
@@ -59,18 +56,17 @@ void prepare(const Options& options) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
     tbb::task_arena arena(threads);
     arena.execute([&] {
-        auto start = Clock::now();
+        render::Stopwatch watch;
         const auto points = lightcuts::even_directions(options.directions, options.view.seed);
         const Directions directions = options.tree == TreeKind::geometric
                                           ? geometric_directions(points)
                                           : data_driven_directions(points, mesh.sites.sites, rays,
                                                                    {.beta = options.beta});
-        const double tree_seconds = seconds_since(start);
-        start = Clock::now();
+        const double tree_seconds = watch.lap();
         CutStatistics statistics;
         const auto cuts = visibility_cuts(directions, mesh.sites.sites, rays, options.cuts, statistics,
                                           !options.view.quiet);
-        const double seconds = seconds_since(start);
+        const double seconds = watch.lap();
         const std::vector<char> file = relight_file(preparation, directions, cuts);
         render::write_file(options.view.output, file);
         if (!options.view.quiet) say(mesh, options, statistics, file.size(), tree_seconds, seconds);

@@ -9,9 +9,9 @@
 
 #include <lightcuts/core/invalid_input.hpp>
 #include <nlohmann/json.hpp>
+#include <render/fingerprint.hpp>
 #include <render/io/content_hash.hpp>
 #include <render/io/escape.hpp>
-#include <render/surfaces/surface_colors.hpp>
 
 namespace relight {
 
@@ -63,26 +63,6 @@ auto naming(const std::string& name, Action&& action) {
 }
 
 }  // namespace
-
-std::uint64_t mesh_fingerprint(const render::Scene& scene) {
-    render::ContentHash hash;
-    hash.add(scene.positions).add(scene.triangles);
-    const std::vector<bool> passes = render::transmissive_materials(scene);
-    if (std::find(passes.begin(), passes.end(), true) == passes.end()) return hash.value();
-    // What light passes is part of visibility.
-    hash.add(scene.triangle_material).add(scene.colors);
-    for (const std::vector<glm::vec2>& uvs : scene.uv_sets) hash.add(uvs);
-    for (std::size_t i = 0; i < passes.size(); ++i) {
-        if (!passes[i]) continue;
-        const render::Material& m = scene.materials[i];
-        hash.add(i).add(m.base_color).add(m.transmission).add(m.metallic).add(m.base_alpha).add(m.alpha_cutoff);
-        hash.add(m.alpha);
-        for (const render::TextureUse* use : {&m.base_color_texture, &m.alpha_texture, &m.metallic_roughness_texture}) {
-            if (use->is_there()) hash.add(scene.textures[static_cast<std::size_t>(use->texture)].texels);
-        }
-    }
-    return hash.value();
-}
 
 std::vector<char> relight_file(const Preparation& preparation, const Directions& directions,
                                std::span<const std::byte> cuts) {
@@ -143,7 +123,7 @@ RelightFile::RelightFile(const std::filesystem::path& path) : name_(path.string(
 }
 
 void RelightFile::require_scene(const render::Scene& scene) const {
-    if (mesh_fingerprint(scene) == preparation_.fingerprint) return;
+    if (render::occlusion_hash(scene) == preparation_.fingerprint) return;
     throw lightcuts::invalid_input(name_ + ": was prepared of another mesh, " + preparation_.scene + ", than " +
                                    scene.name + " is now; prepare it anew");
 }

@@ -20,14 +20,11 @@ namespace relight {
 /// What cuts in a file are good for.
 struct Preparation {
     std::string scene;              ///< its name, for messages
-    std::uint64_t fingerprint = 0;  ///< of its mesh, as it was loaded
+    std::uint64_t fingerprint = 0;  ///< render::occlusion_hash of the mesh as it was loaded
     double longest_edge = 0.0;      ///< to which the mesh was refined; 0: as it is
     Sides sides = Sides::both;
     std::size_t sites = 0;
 };
-
-/// A hash of the mesh and of what lets light pass.
-std::uint64_t mesh_fingerprint(const render::Scene& scene);
 
 /// The bytes of a file: a line of JSON, a tree file, a cut file.
 std::vector<char> relight_file(const Preparation& preparation, const Directions& directions,

@@ -1,8 +1,8 @@
 #include "render_frames.hpp"
 
-#include <chrono>
 #include <cstdio>
 #include <ctime>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,6 +20,8 @@
 #include <render/io/picture.hpp>
 #include <render/rays/ray_scene.hpp>
 #include <render/rays/ray_tracer.hpp>
+#include <render/read_reference.hpp>
+#include <render/stopwatch.hpp>
 
 #include "mesh.hpp"
 #include "seen_points.hpp"
@@ -29,20 +31,6 @@ namespace relight {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-class Stopwatch {
-public:
-    /// Seconds since the last call, or since construction.
-    double lap() {
-        const auto now = std::chrono::steady_clock::now();
-        const double seconds = std::chrono::duration<double>(now - last_).count();
-        last_ = now;
-        return seconds;
-    }
-
-private:
-    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
 
 std::filesystem::path frame_path(const Options& options, int frame) {
     const std::filesystem::path& whole = options.view.output;
@@ -64,15 +52,6 @@ void check_outputs(const Options& options, const std::vector<std::filesystem::pa
         render::require_writable(output);
         for (const auto& input : inputs) render::require_apart(output, input);
     }
-}
-
-render::Picture read_reference(const Options& options) {
-    render::Picture reference = render::read_exr(options.view.reference);
-    if (reference.width != options.view.width || reference.height != options.view.height) {
-        throw lightcuts::invalid_input(options.view.reference.string() + ": is " + std::to_string(reference.width) +
-                                       "x" + std::to_string(reference.height) + " pixels; give that --size");
-    }
-    return reference;
 }
 
 /// What is seen under a light: `radiance`, by point, and the map where rays leave the scene.
@@ -129,7 +108,7 @@ public:
 
     /// The picture of the map turned by `degrees`; fills `json`.
     render::Picture frame(double degrees, Json& json) {
-        Stopwatch watch;
+        render::Stopwatch watch;
         map_.turn(degrees, nearest_, power_);
         json["rotation"] = degrees;
         if (options_.exhaustive) {
@@ -172,9 +151,8 @@ private:
 
 void render_all(const Options& options, const RelightFile& file, const Mesh& mesh, const render::RayScene& rays,
                 const render::View& view) {
-    Stopwatch watch;
-    std::optional<render::Picture> reference;
-    if (!options.view.reference.empty()) reference = read_reference(options);
+    render::Stopwatch watch;
+    const std::optional<render::Picture> reference = render::read_reference(options.view);
     render::Environment environment{render::read_map(options.map), options.map_scale, 0.0f};
     environment.picture.channels.clear();
     const SeenPoints seen = see(mesh.scene, rays, view, options.view.spp, options.view.seed,

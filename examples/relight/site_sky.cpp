@@ -1,8 +1,7 @@
 #include "site_sky.hpp"
 
-#include <chrono>
-
 #include <glm/geometric.hpp>
+#include <render/stopwatch.hpp>
 
 namespace relight {
 
@@ -31,16 +30,17 @@ void SiteSky::look(const Site& site) {
     }
     count_ = order_.size();
     answers_.resize(count_);
-    const auto start = std::chrono::steady_clock::now();
+    const render::Stopwatch watch;
     trace(site.front, 0, above);
     trace(site.back, above, count_);
-    ray_seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    ray_seconds_ += watch.seconds();
     for (std::size_t k = 0; k < count_; ++k) shares_[order_[k]] = answers_[k];
     if (count_ < directions_.size()) fill();
 }
 
 void SiteSky::trace(const glm::vec3& from, std::size_t begin, std::size_t end) {
-    rays_.look(from, std::span(traced_).subspan(begin, end - begin), std::span(answers_).subspan(begin, end - begin));
+    sky_.look(rays_, from, std::span(traced_).subspan(begin, end - begin),
+              std::span(answers_).subspan(begin, end - begin));
 }
 
 void SiteSky::fill() {

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include <render/rays/ray_scene.hpp>
+#include <render/rays/sky_rays.hpp>
 
 #include "directions.hpp"
 #include "site.hpp"
-#include "sky_rays.hpp"
 
 namespace relight {
 
@@ -41,7 +41,8 @@ private:
     void fill();
 
     const Directions& directions_;
-    SkyRays rays_;
+    const render::RayScene& rays_;
+    render::SkyRays sky_;
     Sides sides_;
     std::size_t count_ = 0;
     double ray_seconds_ = 0.0;

@@ -1,7 +1,6 @@
 #include "visibility_cuts.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include <oneapi/tbb/enumerable_thread_specific.h>
@@ -10,6 +9,7 @@
 #include <lightcuts/piecewise/cut_file.hpp>
 #include <lightcuts/piecewise/moments.hpp>
 #include <render/progress.hpp>
+#include <render/stopwatch.hpp>
 
 namespace relight {
 
@@ -64,7 +64,6 @@ double CutStatistics::rms() const { return rays > 0 ? std::sqrt(squared_error / 
 std::vector<std::byte> visibility_cuts(const Directions& directions, std::span<const Site> sites,
                                        const render::RayScene& rays, const CutOptions& options,
                                        CutStatistics& statistics, bool shown) {
-    using Clock = std::chrono::steady_clock;
     std::vector<SiteCut> cuts(sites.size());
     tbb::enumerable_thread_specific<Scratch> scratches([&] {
         return Scratch{SiteSky(directions, rays, options.sides), {}, {}};
@@ -73,9 +72,9 @@ std::vector<std::byte> visibility_cuts(const Directions& directions, std::span<c
         render::Progress progress(sites.size(), shown);
         tbb::parallel_for(std::size_t{0}, sites.size(), [&](std::size_t i) {
             Scratch& scratch = scratches.local();
-            const Clock::time_point start = Clock::now();
+            const render::Stopwatch watch;
             cuts[i] = cut_at(sites[i], directions, options, scratch);
-            scratch.seconds += std::chrono::duration<double>(Clock::now() - start).count();
+            scratch.seconds += watch.seconds();
             progress.step();
         });
     }

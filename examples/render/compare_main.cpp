@@ -1,7 +1,5 @@
 #include <cmath>
 #include <cstdio>
-#include <exception>
-#include <new>
 #include <string>
 #include <vector>
 
@@ -11,13 +9,12 @@
 
 #include "error.hpp"
 #include "false_color.hpp"
-#include "interrupt.hpp"
 #include "io/escape.hpp"
 #include "io/output_file.hpp"
 #include "io/picture.hpp"
 #include "io/standard_streams.hpp"
-#include "memory.hpp"
 #include "options.hpp"
+#include "run_program.hpp"
 #include "statistics.hpp"
 
 namespace {
@@ -86,7 +83,7 @@ void show_layer(const CompareOptions& options) {
     print(json.dump(2) + "\n");
 }
 
-int run(int argc, const char* const* argv) {
+ExitStatus run(int argc, const char* const* argv) {
     CompareOptions options;
     CLI::App app(
         "Prints how far picture A is from reference B, as JSON; or what a layer of A holds.\n"
@@ -103,13 +100,13 @@ int run(int argc, const char* const* argv) {
         app.parse(argc, argv);
     } catch (const CLI::CallForHelp&) {
         print(app.help());
-        return 0;
-    }
+        return done;
+    } catch (const CLI::ParseError& e) { throw usage_error(one_line(e.what())); }
     if (white->count() > 0 && !(options.white > 0 && std::isfinite(options.white))) {
-        throw CLI::ValidationError("--white", "expected a finite number above 0");
+        throw usage_error("--white: expected a finite number above 0");
     }
     if (options.layer.empty() && options.reference.empty()) {
-        throw CLI::RequiredError("a reference B, or --layer NAME,");
+        throw usage_error("a reference B, or --layer NAME, is required");
     }
     require_outputs_apart(options);
     if (options.layer.empty()) {
@@ -117,26 +114,11 @@ int run(int argc, const char* const* argv) {
     } else {
         show_layer(options);
     }
-    return 0;
-}
-
-int fail(int status, const std::string& message) {
-    std::fprintf(stderr, "lightcuts-compare: %s\n", escaped(message).c_str());
-    return status;
+    return done;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    guard_standard_streams();
-    watch_signals("lightcuts-compare");
-    watch_termination("lightcuts-compare");
-    try {
-        return run(argc, argv);
-    } catch (const CLI::ParseError& e) {
-        return fail(2, one_line(e.what()) + " (--help lists the options)");
-    } catch (const std::bad_alloc&) {
-        // The pictures have been freed by now, so that there is memory for a message.
-        return fail(1, memory_shortage());
-    } catch (const std::exception& e) { return fail(1, e.what()); }
+    return run_program("lightcuts-compare", [&] { return run(argc, argv); });
 }

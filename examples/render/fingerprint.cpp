@@ -8,6 +8,7 @@
 
 #include "io/content_hash.hpp"
 #include "io/escape.hpp"
+#include "surfaces/surface_colors.hpp"
 
 namespace render {
 
@@ -220,6 +221,25 @@ Fingerprint fingerprint_of(const Options& options, const Scene& scene, const Cam
     add_camera(print, camera);
     add_scene(print, scene);
     return print;
+}
+
+std::uint64_t occlusion_hash(const Scene& scene) {
+    ContentHash hash;
+    hash.add(scene.origin).add(scene.positions).add(scene.triangles);
+    const std::vector<bool> passes = transmissive_materials(scene);
+    if (std::find(passes.begin(), passes.end(), true) == passes.end()) return hash.value();
+    hash.add(scene.triangle_material).add(scene.colors);
+    for (const std::vector<glm::vec2>& uvs : scene.uv_sets) hash.add(uvs);
+    for (std::size_t i = 0; i < passes.size(); ++i) {
+        if (!passes[i]) continue;
+        const Material& material = scene.materials[i];
+        hash.add(i);
+        add_to(hash, material);
+        for (const TextureUse* use : textures_of(material)) {
+            if (use->is_there()) add_to(hash, scene.textures[static_cast<std::size_t>(use->texture)]);
+        }
+    }
+    return hash.value();
 }
 
 }  // namespace render

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -32,5 +33,10 @@ private:
 /// machine. Not in it: where it goes, the number of threads, and how the scene's files are called.
 Fingerprint fingerprint_of(const Options& options, const Scene& scene, const Camera& camera, const RayScene& rays,
                            const std::string& program);
+
+/// A hash of all in a scene that shadow rays depend on, by which what was made of them is told from what others would
+/// make: its triangles and, where some let light pass, what their materials are. Not in it: the materials of the
+/// others.
+std::uint64_t occlusion_hash(const Scene& scene);
 
 }  // namespace render

@@ -1,7 +1,6 @@
-#include <chrono>
 #include <cstdio>
-#include <exception>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include <oneapi/tbb/global_control.h>
@@ -21,50 +20,24 @@
 #include "io/standard_streams.hpp"
 #include "io/validate.hpp"
 #include "lights/indirect.hpp"
-#include "memory.hpp"
 #include "moving_view.hpp"
 #include "options.hpp"
 #include "prepare_scene.hpp"
 #include "program.hpp"
 #include "rays/ray_scene.hpp"
 #include "rays/ray_tracer.hpp"
+#include "read_reference.hpp"
 #include "render_loop.hpp"
+#include "run_program.hpp"
 #include "shader.hpp"
 #include "statistics.hpp"
+#include "stopwatch.hpp"
 #include "surfaces/surface.hpp"
 #include "view.hpp"
 
 namespace {
 
 using namespace render;
-
-enum ExitStatus { done = 0, bad_input = 1, bad_command_line = 2, stopped = interrupted_status };
-
-class Stopwatch {
-public:
-    /// Seconds since the last call, or since construction.
-    double lap() {
-        const auto now = std::chrono::steady_clock::now();
-        const double seconds = std::chrono::duration<double>(now - last_).count();
-        last_ = now;
-        return seconds;
-    }
-
-private:
-    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
-
-std::optional<Picture> read_reference(const Options& options) {
-    if (options.reference.empty()) return std::nullopt;
-    Picture reference = read_exr(options.reference);
-    if (reference.width != options.width || reference.height != options.height) {
-        throw lightcuts::invalid_input(options.reference.string() + ": is " + std::to_string(reference.width) + "x" +
-                                       std::to_string(reference.height) + " pixels; give --size " +
-                                       std::to_string(reference.width) + "x" + std::to_string(reference.height) +
-                                       " or another reference");
-    }
-    return reference;
-}
 
 /// The files that the picture is made of, and that with which it is compared.
 std::vector<std::filesystem::path> inputs_of(const Options& options, const Scene& scene) {
@@ -203,23 +176,8 @@ ExitStatus run(const Options& options) {
     return render_scene(options);
 }
 
-ExitStatus fail(ExitStatus status, const std::string& message) {
-    std::fprintf(stderr, "lightcuts-render: %s\n", escaped(message).c_str());
-    return status;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-    guard_standard_streams();
-    watch_signals("lightcuts-render");
-    watch_termination("lightcuts-render");
-    try {
-        return run(parse_options(argc, argv));
-    } catch (const usage_error& e) {
-        return fail(bad_command_line, std::string(e.what()) + " (--help lists the options)");
-    } catch (const std::bad_alloc&) {
-        // What was asked for has been given back: there is room for a message.
-        return fail(bad_input, memory_shortage());
-    } catch (const std::exception& e) { return fail(bad_input, explanation(e)); }
+    return run_program("lightcuts-render", [&] { return run(parse_options(argc, argv)); });
 }

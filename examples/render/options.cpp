@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "io/escape.hpp"
-#include "option_value.hpp"
+#include "option_declaration.hpp"
 #include "pixel_filter.hpp"
 #include "rays/ray_tracer.hpp"
 
@@ -122,9 +122,10 @@ Options parse_options(int argc, const char* const* argv) {
     bool version = false;
     bool list_scenes = false;
 
-    const auto text = [&app](const std::string& names, const std::string& type, const std::string& help,
-                             std::function<void(const std::string&)> set) {
-        return app.add_option_function<std::string>(names, std::move(set), help)->type_name(type);
+    OptionDeclaration declare(app);
+    const auto text = [&declare](const std::string& names, const std::string& type, const std::string& help,
+                                 std::function<void(const std::string&)> set) {
+        return declare.text(names, type, help, std::move(set));
     };
     const auto count = [&text](const std::string& name, const std::string& help, std::uint32_t lowest,
                                std::uint32_t highest, std::uint32_t& value) {
@@ -189,17 +190,11 @@ Options parse_options(int argc, const char* const* argv) {
          [&](const std::string& s) {
              options.splitting_threshold = number_in("--splitting-threshold", s, 0.0f, huge, "a number of at least 0");
          });
-    text("--builder", "NAME", "how light trees are built: " + listed(builders) + " (" + options.builder + ")",
-         [&](const std::string& s) {
-             if (!contains(builders, s)) refuse("--builder", s, "one of " + listed(builders));
-             options.builder = s;
-         });
-    text("--pair-sides", "NAME",
-         "which side of a pair of clusters is split: " + listed(pair_sides) + " (" + options.pair_sides + ")",
-         [&](const std::string& s) {
-             if (!contains(pair_sides, s)) refuse("--pair-sides", s, "one of " + listed(pair_sides));
-             options.pair_sides = s;
-         });
+    declare.choice("--builder", "NAME", "how light trees are built: " + listed(builders) + " (" + options.builder + ")",
+                   builders, options.builder);
+    declare.choice("--pair-sides", "NAME",
+                   "which side of a pair of clusters is split: " + listed(pair_sides) + " (" + options.pair_sides + ")",
+                   pair_sides, options.pair_sides);
     text("--lights", "FILE", "more lights, CSV: kind,x,y,z,dx,dy,dz,r,g,b", [&](const std::string& s) {
         if (s.empty()) refuse("--lights", "''", "a file name");
         options.lights = s;
@@ -255,10 +250,8 @@ Options parse_options(int argc, const char* const* argv) {
     text("--focus", "D", "distance of what is sharp (the target's)", [&](const std::string& s) {
         options.focus = number_in("--focus", s, std::numeric_limits<float>::min(), huge, "a number above 0");
     });
-    text("--filter", "NAME", "of pixels: " + listed(pixel_filters()) + " (box)", [&](const std::string& s) {
-        if (!contains(pixel_filters(), s)) refuse("--filter", s, "one of " + listed(pixel_filters()));
-        options.filter = s;
-    });
+    declare.choice("--filter", "NAME", "of pixels: " + listed(pixel_filters()) + " (box)", pixel_filters(),
+                   options.filter);
     text("--materials", "full|diffuse", "diffuse: Lambert with the base color everywhere (full)",
          [&](const std::string& s) {
              if (s != "full" && s != "diffuse") refuse("--materials", s, "full or diffuse");
@@ -270,14 +263,8 @@ Options parse_options(int argc, const char* const* argv) {
     });
     text("--aov", "LIST", "further layers, comma-separated: " + listed(aov_names()),
          [&](const std::string& s) { set_aovs(options, s); });
-    text("--isa", "NAME", "instruction set of the ray tracer: " + listed(isa_names()) + " (the best)",
-         [&](const std::string& s) {
-             if (!contains(isa_names(), s)) refuse("--isa", s, "one of " + listed(isa_names()));
-             options.isa = s;
-         });
-    text("--threads", "N", "threads (all)", [&](const std::string& s) {
-        options.threads = number_in<int>("--threads", s, 1, 4096, "a whole number from 1 to 4096");
-    });
+    declare.isa("instruction set of the ray tracer: " + listed(isa_names()) + " (the best)", options.isa);
+    declare.threads(options.threads);
     text("--seed", "N", "of all random choices (1)", [&](const std::string& s) {
         options.seed = number_in<std::uint64_t>("--seed", s, 0, std::numeric_limits<std::uint64_t>::max(),
                                                 "a whole number of at least 0");

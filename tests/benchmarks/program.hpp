@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "render/process.hpp"
-#include "render/temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 /// A benchmark that runs in an empty folder. Its streams are caught in another.
 class BenchmarkProgram : public testing::Test {

@@ -8,7 +8,7 @@
 #include <daylight/bounce.hpp>
 #include <daylight/trace.hpp>
 #include <daylight/visibility_file.hpp>
-#include <render/temporary_folder.hpp>
+#include "support/temporary_folder.hpp"
 
 #include "daylight/rooms.hpp"
 

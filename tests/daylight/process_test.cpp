@@ -11,7 +11,7 @@
 #include <csignal>
 
 #include <render/process.hpp>
-#include <render/temporary_folder.hpp>
+#include "support/temporary_folder.hpp"
 
 #include "daylight/synthetic_weather.hpp"
 

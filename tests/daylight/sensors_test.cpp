@@ -3,7 +3,7 @@
 
 #include <daylight/sensors.hpp>
 #include <render/refusal.hpp>
-#include <render/temporary_folder.hpp>
+#include "support/temporary_folder.hpp"
 
 namespace {
 

@@ -17,7 +17,7 @@
 #include <daylight/visibility.hpp>
 #include <daylight/visibility_file.hpp>
 #include <render/refusal.hpp>
-#include <render/temporary_folder.hpp>
+#include "support/temporary_folder.hpp"
 
 #include "daylight/rooms.hpp"
 

@@ -7,7 +7,7 @@
 
 #include <daylight/weather.hpp>
 #include <render/refusal.hpp>
-#include <render/temporary_folder.hpp>
+#include "support/temporary_folder.hpp"
 
 #include "daylight/synthetic_weather.hpp"
 

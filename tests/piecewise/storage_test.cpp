@@ -18,6 +18,7 @@
 #include <lightcuts/piecewise/mapped_file.hpp>
 #include <lightcuts/piecewise/tree_file.hpp>
 #include "piecewise/functions.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace lightcuts::test {
 namespace {
@@ -160,27 +161,15 @@ TEST(Compact, TakesThreeBytesAPieceAndLargeSteps) {
     EXPECT_EQ(at_leaves(found), at_leaves(f));
 }
 
-/// Of the running test alone: others run at the same time.
-struct Folder {
-    std::filesystem::path path = std::filesystem::current_path() /
-                                 (std::string("storage-") +
-                                  testing::UnitTest::GetInstance()->current_test_info()->test_suite_name() + "-" +
-                                  testing::UnitTest::GetInstance()->current_test_info()->name());
-    Folder() {
-        std::filesystem::remove_all(path);
-        std::filesystem::create_directory(path);
-    }
-    ~Folder() { std::filesystem::remove_all(path); }
-    std::size_t files() const {
-        return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(path), {}));
-    }
-};
+std::size_t count_files(const TemporaryFolder& folder) {
+    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder.path()), {}));
+}
 
 static_assert(std::is_constructible_v<CutFile, Bytes&, ClusterTree&>);
 static_assert(!std::is_constructible_v<CutFile, Bytes&, ClusterTree>);
 
 TEST(CutFile, OfThousandsIsMapped) {
-    const Folder folder;
+    const TemporaryFolder folder;
     Random random(4);
     const ClusterTree tree = random_tree(random, 300);
     CutFileWriter writer(tree, {ValueBits::full, true});
@@ -195,9 +184,9 @@ TEST(CutFile, OfThousandsIsMapped) {
             writer.append_encoded(own);
         }
     }
-    write_bytes(folder.path / "cuts", writer.bytes());
-    EXPECT_EQ(folder.files(), 1u);
-    MappedFile unused(folder.path / "cuts");
+    write_bytes(folder.path() / "cuts", writer.bytes());
+    EXPECT_EQ(count_files(folder), 1u);
+    MappedFile unused(folder.path() / "cuts");
     const MappedFile mapped = std::move(unused);
     const CutFile file(mapped.bytes(), tree);
     ASSERT_EQ(file.size(), 2000u);
@@ -208,10 +197,10 @@ TEST(CutFile, OfThousandsIsMapped) {
         EXPECT_GE(f.deviation(0).norm, stored[i].cut.deviation(0).norm);
     }
     // A file is replaced while it is mapped.
-    write_bytes(folder.path / "cuts", CutFileWriter(tree).bytes());
+    write_bytes(folder.path() / "cuts", CutFileWriter(tree).bytes());
     file.read(7, f);
     EXPECT_EQ(at_leaves(f), at_leaves(stored[7].cut));
-    EXPECT_EQ(CutFile(read_bytes(folder.path / "cuts"), tree).size(), 0u);
+    EXPECT_EQ(CutFile(read_bytes(folder.path() / "cuts"), tree).size(), 0u);
 }
 
 TEST(CutFile, IsRefusedWhereItIsDamagedCutShortOrForeign) {
@@ -318,15 +307,15 @@ TEST(Compact, LeavesNoHalfFunctionBehind) {
 }
 
 TEST(TreeFile, KeepsTheTreeAndItsSummaries) {
-    const Folder folder;
+    const TemporaryFolder folder;
     Random random(7);
     for (int trial = 0; trial < 20; ++trial) {
         const ClusterTree tree = random_tree(random, static_cast<std::uint32_t>(random.below(300)),
                                              trial % 2 == 0 ? 2 : 6);
         const auto values = random_function(random, static_cast<std::uint32_t>(tree.item_count()), Kind::uniform);
         const auto of = moments(tree, [&](std::uint32_t i) { return values[i]; });
-        write_bytes(folder.path / "tree", tree_file(tree, std::span<const Moments<1>>(of), 42));
-        const MappedFile mapped(folder.path / "tree");
+        write_bytes(folder.path() / "tree", tree_file(tree, std::span<const Moments<1>>(of), 42));
+        const MappedFile mapped(folder.path() / "tree");
         const auto found = read_tree<Moments<1>>(mapped.bytes(), 42);
         EXPECT_EQ(found.tree, tree);
         ASSERT_EQ(found.summaries.size(), of.size());
@@ -375,55 +364,55 @@ TEST(TreeFile, FindsItemsThatOccurTwiceAmongManyLeftOut) {
 }
 
 TEST(FileBytes, LeaveNoHalfWrittenFileBehind) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const Bytes bytes(100);
-    std::filesystem::create_directory(folder.path / "taken");
+    std::filesystem::create_directory(folder.path() / "taken");
     for (const char* name : {"taken", "missing/file"}) {
-        EXPECT_NE(refusal_of([&] { write_bytes(folder.path / name, bytes); }).find(name), std::string::npos);
+        EXPECT_NE(refusal_of([&] { write_bytes(folder.path() / name, bytes); }).find(name), std::string::npos);
     }
-    EXPECT_EQ(folder.files(), 1u);
-    EXPECT_NE(refusal_of([&] { MappedFile file(folder.path / "missing"); }).find("missing"), std::string::npos);
-    EXPECT_NE(refusal_of([&] { MappedFile file(folder.path); }), "");
-    write_bytes(folder.path / "empty", {});
-    EXPECT_TRUE(MappedFile(folder.path / "empty").bytes().empty());
+    EXPECT_EQ(count_files(folder), 1u);
+    EXPECT_NE(refusal_of([&] { MappedFile file(folder.path() / "missing"); }).find("missing"), std::string::npos);
+    EXPECT_NE(refusal_of([&] { MappedFile file(folder.path()); }), "");
+    write_bytes(folder.path() / "empty", {});
+    EXPECT_TRUE(MappedFile(folder.path() / "empty").bytes().empty());
     Random random(9);
     const ClusterTree tree = random_tree(random, 5);
-    const MappedFile empty(folder.path / "empty");
+    const MappedFile empty(folder.path() / "empty");
     EXPECT_NE(refusal_of([&] { CutFile(empty.bytes(), tree); }), "");
 }
 
 #if __has_include(<sys/stat.h>)
 TEST(FileBytes, DoNotWaitForPipes) {
-    const Folder folder;
-    const std::filesystem::path pipe = folder.path / "pipe";
+    const TemporaryFolder folder;
+    const std::filesystem::path pipe = folder.path() / "pipe";
     ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
     EXPECT_NE(refusal_of([&] { MappedFile file(pipe); }).find("pipe"), std::string::npos);
     EXPECT_NE(refusal_of([&] { write_bytes(pipe, Bytes(10)); }).find("no regular file"), std::string::npos);
     EXPECT_TRUE(std::filesystem::is_fifo(pipe));
-    EXPECT_EQ(folder.files(), 1u);
+    EXPECT_EQ(count_files(folder), 1u);
 }
 
 TEST(FileBytes, AreWrittenToWhereLinksLead) {
     namespace fs = std::filesystem;
-    const Folder folder;
-    fs::create_directory(folder.path / "there");
-    fs::create_symlink("there/file", folder.path / "inner");
-    fs::create_symlink(folder.path / "inner", folder.path / "outer");
+    const TemporaryFolder folder;
+    fs::create_directory(folder.path() / "there");
+    fs::create_symlink("there/file", folder.path() / "inner");
+    fs::create_symlink(folder.path() / "inner", folder.path() / "outer");
     for (const std::size_t size : {10u, 20u}) {  // a file that is not there yet, and one that is
-        write_bytes(folder.path / "outer", Bytes(size));
-        EXPECT_TRUE(fs::is_symlink(folder.path / "outer") && fs::is_symlink(folder.path / "inner"));
-        EXPECT_EQ(fs::file_size(folder.path / "there" / "file"), size);
+        write_bytes(folder.path() / "outer", Bytes(size));
+        EXPECT_TRUE(fs::is_symlink(folder.path() / "outer") && fs::is_symlink(folder.path() / "inner"));
+        EXPECT_EQ(fs::file_size(folder.path() / "there" / "file"), size);
     }
-    EXPECT_EQ(folder.files(), 3u);
-    fs::create_symlink("self", folder.path / "self");
-    EXPECT_NE(refusal_of([&] { write_bytes(folder.path / "self", Bytes(1)); }).find("leads nowhere"),
+    EXPECT_EQ(count_files(folder), 3u);
+    fs::create_symlink("self", folder.path() / "self");
+    EXPECT_NE(refusal_of([&] { write_bytes(folder.path() / "self", Bytes(1)); }).find("leads nowhere"),
               std::string::npos);
 }
 
 TEST(FileBytes, KeepPermissions) {
     namespace fs = std::filesystem;
-    const Folder folder;
-    const fs::path file = folder.path / "private";
+    const TemporaryFolder folder;
+    const fs::path file = folder.path() / "private";
     write_bytes(file, Bytes(1));
     for (const fs::perms p : {fs::perms::owner_read, fs::perms::owner_read | fs::perms::owner_write}) {
         fs::permissions(file, p);

@@ -85,12 +85,12 @@ TEST(Sites, FootOfAWallLooksFromTheWall) {
                                      "usemtl gray\nf 4 3 2 1\nf 5 6 7 8\n");
     const relight::Sites sites = relight::sites_of(scene);
     const render::RayScene rays(scene);
-    relight::SkyRays sky(rays);
+    render::SkyRays sky;
     const std::vector<glm::vec3> up{glm::normalize(glm::vec3(0.1f, 1.0f, 0.5f))};
     std::vector<float> visible(1);
     for (int k = 0; k < 3; ++k) {
         const relight::Site& site = sites.sites[sites.of_triangle.back()[k]];
-        sky.look(site.normal.z > 0.0f ? site.front : site.back, up, visible);
+        sky.look(rays, site.normal.z > 0.0f ? site.front : site.back, up, visible);
         EXPECT_EQ(visible[0], 1.0f);
     }
 }

@@ -44,7 +44,7 @@ TEST(RelightFile, MaterialsMayChange) {
     world.file->require_scene(scene);
     // But not what lets light pass.
     scene.materials[0].transmission = 0.5f;
-    EXPECT_NE(relight::mesh_fingerprint(scene), world.file->preparation().fingerprint);
+    EXPECT_NE(render::occlusion_hash(scene), world.file->preparation().fingerprint);
 }
 
 }  // namespace

@@ -15,10 +15,11 @@
 #include <relight/relit_shader.hpp>
 #include <relight/seen_points.hpp>
 #include <relight/visibility_cuts.hpp>
+#include <render/fingerprint.hpp>
 #include <render/io/output_file.hpp>
 #include <render/rays/ray_scene.hpp>
 
-#include "render/temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 inline const std::string two_materials =
     "newmtl gray\nKd 0.5 0.4 0.3\n"
@@ -62,7 +63,7 @@ public:
         folder.write("m.mtl", two_materials);
         folder.write("scene.obj", obj);
         render::Scene scene = relight::load_still_scene(folder / "scene.obj");
-        relight::Preparation preparation{scene.name, relight::mesh_fingerprint(scene), edge, cuts.sides, 0};
+        relight::Preparation preparation{scene.name, render::occlusion_hash(scene), edge, cuts.sides, 0};
         mesh = relight::refined(std::move(scene), edge);
         preparation.sites = mesh.sites.sites.size();
         rays = std::make_unique<render::RayScene>(mesh.scene);

@@ -5,7 +5,7 @@
 #include <glm/vec4.hpp>
 #include <render/io/picture.hpp>
 
-#include "temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 /// An OpenEXR file of one pixel with alpha.
 inline std::string exr_pixel(const glm::vec4& texel) {

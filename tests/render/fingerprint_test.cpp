@@ -1,3 +1,4 @@
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <utility>
@@ -102,6 +103,53 @@ TEST(Fingerprint, LeavesOutWhatChangesNoPicture) {
     changed.scene.name = "other";
     changed.camera.name = "north";
     EXPECT_EQ(before.difference(print_of(changed)), "");
+}
+
+/// Triangles, and what those are made of that let light pass; nothing else.
+TEST(OcclusionHash, IsOfAllThatShadowRaysDependOn) {
+    const auto pane = [] {
+        Scene s = usual().scene;
+        s.uv_sets = {{{0, 0}, {1, 0}, {0, 1}}};
+        s.colors = {glm::vec4(1.0f), glm::vec4(1.0f), glm::vec4(1.0f)};
+        s.materials.resize(2);
+        s.materials[0].transmission = 0.5f;
+        s.materials[0].base_color_texture.texture = 0;
+        return s;
+    };
+    const std::uint64_t before = occlusion_hash(pane());
+    const std::function<void(Scene&)> changes[] = {
+        [](Scene& s) { s.positions[1].x = 2.0f; },
+        [](Scene& s) { s.origin.y = 1.0; },
+        [](Scene& s) {
+            s.triangles[0] = {0, 2, 1};
+        },
+        [](Scene& s) { s.triangle_material[0] = 1; },
+        [](Scene& s) { s.colors[2].w = 0.5f; },
+        [](Scene& s) { s.uv_sets[0][1].x = 0.5f; },
+        [](Scene& s) { s.materials[0].transmission = 0.6f; },
+        [](Scene& s) { s.materials[0].base_color.y = 0.1f; },
+        [](Scene& s) { s.materials[0].base_color_texture.uv.u_axis.x = 2.0f; },
+        [](Scene& s) { s.materials[1].transmission = 0.1f; },
+        [](Scene& s) { s.textures[0].texels[0].x = 0.25f; },
+        [](Scene& s) { s.textures[0].wrap_u = render::Texture::Wrap::clamp; },
+    };
+    for (const auto& change : changes) {
+        Scene changed = pane();
+        change(changed);
+        EXPECT_NE(occlusion_hash(changed), before) << &change - changes;
+    }
+    Scene repainted = pane();
+    repainted.name = "other";
+    repainted.materials[1].base_color.x = 0.1f;
+    repainted.omni.clear();
+    EXPECT_EQ(occlusion_hash(repainted), before);
+    // Where nothing lets light pass, materials do not count.
+    Scene wall = pane();
+    wall.materials[0].transmission = 0.0f;
+    const std::uint64_t of_wall = occlusion_hash(wall);
+    wall.materials[0].base_color.y = 0.1f;
+    wall.triangle_material[0] = 1;
+    EXPECT_EQ(occlusion_hash(wall), of_wall);
 }
 
 }  // namespace

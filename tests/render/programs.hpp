@@ -13,7 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "process.hpp"
-#include "temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 /// A folder with a small scene, in which the programs run. Their streams are caught in another.
 class Programs : public ::testing::Test {

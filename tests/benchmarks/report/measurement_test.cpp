@@ -7,7 +7,7 @@
 #include <benchmarks/report/pictures.hpp>
 #include <render/io/picture.hpp>
 
-#include "render/temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace {
 

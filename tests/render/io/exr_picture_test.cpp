@@ -27,7 +27,7 @@
 #include <render/io/picture.hpp>
 
 #include "render/refusal.hpp"
-#include "render/temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace {
 

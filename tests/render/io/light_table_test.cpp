@@ -7,7 +7,7 @@
 #include <render/io/validate.hpp>
 
 #include "render/refusal.hpp"
-#include "render/temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace {
 

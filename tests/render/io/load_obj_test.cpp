@@ -8,7 +8,7 @@
 
 #include "render/bitmap.hpp"
 #include "render/refusal.hpp"
-#include "render/temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace {
 

@@ -14,7 +14,7 @@
 
 #include "render/refusal.hpp"
 #include "render/small_files.hpp"
-#include "render/temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace {
 

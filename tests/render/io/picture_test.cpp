@@ -16,7 +16,7 @@
 #include <render/io/picture.hpp>
 #include <render/luminance.hpp>
 
-#include "render/temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace {
 

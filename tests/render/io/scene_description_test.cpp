@@ -6,7 +6,7 @@
 #include <render/io/scene_description.hpp>
 
 #include "render/refusal.hpp"
-#include "render/temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace {
 
