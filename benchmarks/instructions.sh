@@ -3,6 +3,8 @@
 # else the machine is doing. Prints one line a scene: instructions a ray, rays a point, scene.
 #
 #   benchmarks/instructions.sh [BUILD] [SCENE...]     BUILD: build/release
+#
+# OPTIONS (the environment) go to bench-instructions: OPTIONS=--gather benchmarks/instructions.sh
 set -euo pipefail
 root=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)
 build=${1:-$root/build/release}
@@ -16,8 +18,9 @@ command -v valgrind >/dev/null || { echo "instructions.sh: valgrind is missing; 
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 for scene in "${scenes[@]}"; do
+    # shellcheck disable=SC2086  # several options
     rays=$(valgrind --tool=callgrind --callgrind-out-file="$folder/counts" --toggle-collect='shade_receivers*' \
-        "$build/bin/bench-instructions" "$scene" 2>"$folder/messages") || { cat "$folder/messages" >&2; exit 1; }
+        "$build/bin/bench-instructions" ${OPTIONS:-} "$scene" 2>"$folder/messages") || { cat "$folder/messages" >&2; exit 1; }
     # Own costs by object file; the line after `calls=` repeats what was called.
     awk -v rays="$rays" -v scene="$scene" '
         # A name is written once, after the number that stands for it.

@@ -32,9 +32,16 @@ inline bool is_single(const Cone& c) { return c.sin2_half == 0.0f; }
 /// True iff the cone holds every direction.
 inline bool is_whole_sphere(const Cone& c) { return c.sin2_half >= 1.0f; }
 
+namespace detail {
+
+/// `v` with length 1. pre: its squared length is a normal number
+inline glm::dvec3 unit(const glm::dvec3& v) { return v * (1.0 / std::sqrt(dot(v, v))); }
+
+}  // namespace detail
+
 /// The axis in double, with length 1 to double precision: as stored it is off by up to 1e-7, too much for
 /// `widen_cosine` where the cosine is near -1. pre: not empty
-inline glm::dvec3 unit_axis(const Cone& c) { return glm::normalize(glm::dvec3(c.axis)); }
+inline glm::dvec3 unit_axis(const Cone& c) { return detail::unit(glm::dvec3(c.axis)); }
 
 /// The cone of the opposites of the directions in `c`; that of no direction is itself.
 inline Cone negated(const Cone& c) { return {-c.axis, c.sin2_half}; }
@@ -85,13 +92,18 @@ inline HalfAngle half_between(const glm::dvec3& a, const glm::dvec3& b) {
     return {0.5 * glm::length(a - b), 0.5 * glm::length(a + b)};
 }
 
-/// sin^2 of half the angle that a cone about `axis` needs to hold the cone (`other`, `half`).
-inline double needed_sin2_half(const glm::dvec3& axis, const glm::dvec3& other, const HalfAngle& half) {
-    constexpr double slack = 16.0 * unit_roundoff;  // rounding of the unit vectors
-    const HalfAngle sum = half_between(axis, other) + half;
-    if (sum.cos <= slack) return 1.0;
-    const double s = sum.sin + slack;
-    return s * s * (1.0 + slack);
+/// sin^2 of half the angle that a cone about `axis` needs to hold the cone about `other` whose own is `sin2_half`; from
+/// above, with the rounding of the unit vectors. Without subtractions, so that narrow cones keep their digits.
+inline double needed_sin2_half(const glm::dvec3& axis, const glm::dvec3& other, double sin2_half) {
+    const glm::dvec3 apart = axis - other;
+    const double between = 0.25 * dot(apart, apart);  // sin^2 of half the angle between the axes
+    if (between + sin2_half >= 1.0 - 64.0 * unit_roundoff) return 1.0;
+    const double cos2_between = 1.0 - between, cos2_half = 1.0 - sin2_half;
+    // sin^2 of a sum of angles.
+    const double sum = between * cos2_half + sin2_half * cos2_between +
+                       2.0 * std::sqrt((between * cos2_half) * (sin2_half * cos2_between));
+    // (s + 16 u)^2 <= s^2 (1 + 1e-8) + (16 u)^2 (1 + 1e8): u is the rounding of the axes.
+    return sum * (1.0 + 1e-8) + 1e-21;
 }
 
 /// A unit vector perpendicular to the unit vector `a`.
@@ -118,29 +130,31 @@ inline Cone merge(const Cone& a, const Cone& b) {
 
     const glm::dvec3 u = unit_axis(a);
     const glm::dvec3 v = unit_axis(b);
-    const HalfAngle half_a = half_of(a);
-    const HalfAngle half_b = half_of(b);
-    const HalfAngle between = half_between(u, v);
-    const HalfAngle surplus = half_a - half_b;
-    if (surplus.sin >= between.sin + 16.0 * unit_roundoff) return a;  // b lies in a
-    // The merged half-angle is beta = (beta_a + beta_b + angle) / 2.
-    const HalfAngle beta = half_a + half_b + between;
-    if (beta.sin <= 0.0 && beta.cos < 0.5) return whole_sphere();
+    const double sin2_a = static_cast<double>(a.sin2_half), sin2_b = static_cast<double>(b.sin2_half);
+    if (sin2_a > 0.0 && needed_sin2_half(u, v, sin2_b) <= sin2_a) return a;
 
-    // Rotate u towards v by beta - beta_a.
-    const glm::dvec3 apart = between.sin <= between.cos ? v - u : v + u;
-    glm::dvec3 side = apart - u * dot(apart, u);
-    const double length = glm::length(side);
-    side = length > 1e-14 ? side / length : perpendicular(u);
-    const HalfAngle turn = between - surplus;
+    // The middle of the merged cone lies between the axes, nearer to that of the wider cone: at u + v if both are as
+    // wide, and by tan((beta_a - beta_b) / 2) / tan(angle / 2) of the way from there to u.
+    const glm::dvec3 across = u - v;
+    glm::dvec3 middle = u + v;
+    double middle2 = dot(middle, middle);
+    if (middle2 < 1e-28) {  // opposite
+        middle = perpendicular(u);
+        middle2 = 1.0;
+    }
+    if (sin2_a != sin2_b) {
+        const double tan_a = std::sqrt(sin2_a / (1.0 - sin2_a)), tan_b = std::sqrt(sin2_b / (1.0 - sin2_b));
+        const double tan_surplus = (tan_a - tan_b) / (1.0 + tan_a * tan_b);
+        middle += across * (tan_surplus * std::sqrt(middle2 / dot(across, across)));
+    }
     // The sum with zero keeps g++ 12 from leaving out the rounding to float when it vectorizes what follows: the cone
     // would be measured about an axis that is not the stored one.
-    const glm::vec3 axis = glm::vec3(glm::normalize(u * turn.cos + side * turn.sin)) + 0.0f;
+    const glm::vec3 axis = glm::vec3(unit(middle)) + 0.0f;
 
-    // Measure again about the axis as stored.
-    const glm::dvec3 w = glm::normalize(glm::dvec3(axis));
-    const double needed_a = needed_sin2_half(w, u, half_a);
-    const double needed_b = needed_sin2_half(w, v, half_b);
+    // Measured about the axis as stored.
+    const glm::dvec3 w = unit(glm::dvec3(axis));
+    const double needed_a = needed_sin2_half(w, u, sin2_a);
+    const double needed_b = needed_sin2_half(w, v, sin2_b);
     const float needed = round_up(needed_a > needed_b ? needed_a : needed_b);
     return needed >= 1.0f ? whole_sphere() : Cone{axis, needed};
 }

@@ -9,6 +9,26 @@
 
 namespace lightcuts {
 
+namespace detail {
+
+/// The lane of the axis along which a box is longest. `direction_share`: the length that one unit of direction counts
+/// for.
+template <std::size_t Dimensions>
+std::size_t longest_axis(const BuildBounds<Dimensions>& bounds, float direction_share) {
+    std::size_t longest = 0;
+    float length = -1;
+    for (const std::size_t a : BuildItem<Dimensions>::axes) {
+        const float l = (bounds.hi[a] - bounds.lo[a]) * (a < 4 ? 1.0f : direction_share);
+        if (l > length) {
+            length = l;
+            longest = a;
+        }
+    }
+    return longest;
+}
+
+}  // namespace detail
+
 /// Splitter of `divide`: halves a set at the median of the longest axis of its box, in three dimensions, or six for
 /// items with a direction [Walter et al. 2006, Section 5]. The tree has depth ceil(log2 N).
 struct LongestAxis {
@@ -22,16 +42,7 @@ struct LongestAxis {
     Split<Dimensions> split(const BuildRange<Dimensions>& range, const NormalizedSpace& space) const {
         using Item = BuildItem<Dimensions>;
         const auto bounds = BuildBounds<Dimensions>::of(range.items);
-        const float direction_share = space.direction_share(direction_length, 0.125f);
-        std::size_t longest = 0;
-        float length = -1;
-        for (const std::size_t a : Item::axes) {
-            const float l = (bounds.hi[a] - bounds.lo[a]) * (a < 4 ? 1.0f : direction_share);
-            if (l > length) {
-                length = l;
-                longest = a;
-            }
-        }
+        const std::size_t longest = detail::longest_axis(bounds, space.direction_share(direction_length, 0.125f));
         const std::size_t left = range.items.size() / 2;
         const auto middle = range.items.begin() + static_cast<std::ptrdiff_t>(left);
         // Ties are broken by item, so that the halves are the same sets whatever the standard library does.
