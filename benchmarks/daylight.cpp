@@ -159,11 +159,10 @@ nlohmann::json errors(const SitePlan& place, const DirectionTree& directions, co
             const double cosine = static_cast<double>(glm::dot(normal, hours[h].towards_sun));
             if (!hours[h].has_sun() || !(cosine > 0.0)) continue;
             exact[s][h] += static_cast<double>(visibility[s][hours[h].sun_place]) * cosine *
-                           hours[h].sky.direct_illuminance();
+                           hours[h].direct_illuminance;
             const Sensor& sensor = site.sensors.sensors[s];
             const glm::vec3 seen = site.rays.to_infinity(starts(sensor), hours[h].towards_sun);
-            by_rays[s][h] += static_cast<double>(seen.r + seen.g + seen.b) / 3.0 * cosine *
-                             hours[h].sky.direct_illuminance();
+            by_rays[s][h] += static_cast<double>(seen.r + seen.g + seen.b) / 3.0 * cosine * hours[h].direct_illuminance;
         }
     }
     nlohmann::json result{{"scene", place.name}, {"sensors", count}, {"hours", hours.size()}};

@@ -6,18 +6,18 @@
 #include <vector>
 
 #include <daylight/hourly_sky.hpp>
-#include <glm/vec3.hpp>
+#include <daylight/reinhart_patches.hpp>
 
 namespace benchmark {
 
-/// The sky in patches of about equal solid angle that are the same for all sensors [Tregenza 1987; Reinhart and
-/// Walkenhorst 2001]: 145 of them, or those divided in 4 x 4, 2,305; and one for all that is below the horizon.
+/// A sensor's light by the sky's patches, see ReinhartPatches, that are the same for all sensors: daylight
+/// coefficients, and skies as they are multiplied by.
 class FixedPatches {
 public:
-    /// `division`: 1 or 4, into how many a side each of the 145 is divided.
+    /// `division`: into how many a side each of the 145 is divided.
     FixedPatches(const daylighting::DirectionTree& directions, const daylighting::Setting& setting, int division);
 
-    std::size_t size() const { return centers_.size(); }
+    std::size_t size() const { return patches_.size(); }
 
     /// Daylight coefficients of a sensor: of each patch the sum over its directions of visibility x cosine x solid
     /// angle. No way to find them is better.
@@ -31,8 +31,9 @@ public:
                                   const daylighting::LitHour& hour, Sun sun) const;
 
 private:
+    daylighting::ReinhartPatches patches_;
+    daylighting::UpAxis up_;
     double solid_angle_;
-    std::vector<glm::dvec3> centers_;      ///< in the scene's axes
     std::vector<std::uint32_t> patch_of_;  ///< of each direction
     std::vector<double> solid_angles_;     ///< of the patches, by the directions in them
 };

@@ -6,8 +6,6 @@
 #include <cstddef>
 #include <numbers>
 
-#include <glm/geometric.hpp>
-
 namespace daylighting {
 namespace {
 
@@ -135,23 +133,16 @@ AllWeatherSky::AllWeatherSky(const SkyConditions& sky) : towards_sun_(sky.toward
     double delta = std::clamp(brightness_, 0.01, 0.6);
     if (clearness_ > 1.065 && clearness_ < 2.8) delta = std::max(delta, 0.2);
     const Shape& x = shapes[kind];
-    a_ = mixed(x.a, zenith_angle, delta);
-    b_ = mixed(x.b, zenith_angle, delta);
-    e_ = mixed(x.e, zenith_angle, delta);
+    shape_.a = mixed(x.a, zenith_angle, delta);
+    shape_.b = mixed(x.b, zenith_angle, delta);
+    shape_.e = mixed(x.e, zenith_angle, delta);
     if (kind == 0) {
-        c_ = std::exp(std::pow(delta * (x.c[0] + x.c[1] * zenith_angle), x.c[2])) - x.c[3];
-        d_ = -std::exp(delta * (x.d[0] + x.d[1] * zenith_angle)) + x.d[2] + delta * x.d[3];
+        shape_.c = std::exp(std::pow(delta * (x.c[0] + x.c[1] * zenith_angle), x.c[2])) - x.c[3];
+        shape_.d = -std::exp(delta * (x.d[0] + x.d[1] * zenith_angle)) + x.d[2] + delta * x.d[3];
     } else {
-        c_ = mixed(x.c, zenith_angle, delta);
-        d_ = mixed(x.d, zenith_angle, delta);
+        shape_.c = mixed(x.c, zenith_angle, delta);
+        shape_.d = mixed(x.d, zenith_angle, delta);
     }
-}
-
-double AllWeatherSky::relative_luminance(const glm::dvec3& direction) const {
-    const double cosine = std::clamp(glm::dot(direction, towards_sun_), -1.0, 1.0);
-    const double to_sun = std::acos(cosine);
-    const double by_height = 1.0 + a_ * std::exp(b_ / std::max(direction.z, 1e-4));
-    return std::max(0.0, by_height * (1.0 + c_ * std::exp(d_ * to_sun) + e_ * cosine * cosine));
 }
 
 }  // namespace daylighting

@@ -2,6 +2,8 @@
 
 #include <glm/vec3.hpp>
 
+#include "sky_shape.hpp"
+
 namespace daylighting {
 
 /// What a weather station measures of an hour's light.
@@ -31,9 +33,8 @@ public:
     /// How bright the sky is for the height of the sun [1990, Eq. 2].
     double brightness() const { return brightness_; }
 
-    /// Luminance of the sky in a direction up to a factor, that of all directions alike [1993, Eq. 1]; not negative.
-    /// `direction`: unit; z upwards, above 0.
-    double relative_luminance(const glm::dvec3& direction) const;
+    /// How its luminance is distributed [1993, Eq. 1].
+    const SkyShape& shape() const { return shape_; }
 
 private:
     glm::dvec3 towards_sun_;
@@ -41,7 +42,7 @@ private:
     double diffuse_illuminance_ = 0.0;
     double clearness_ = 1.0;
     double brightness_ = 0.0;
-    double a_ = 0.0, b_ = 0.0, c_ = 0.0, d_ = 0.0, e_ = 0.0;
+    SkyShape shape_;
 };
 
 }  // namespace daylighting

@@ -5,7 +5,7 @@
 namespace daylighting {
 
 AnnualFigures annual_figures(const Weather& weather, std::span<const LitHour> hours, std::span<const float> lux,
-                             const Occupancy& occupancy, double target, double sun_hours) {
+                             const Occupancy& occupancy, double target, std::optional<double> sun_hours) {
     const auto is_used = [&](std::size_t hour) {
         const int ends = weather.hours[hour].hour;
         return ends > occupancy.from && ends <= occupancy.to;

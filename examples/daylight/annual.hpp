@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -23,11 +24,12 @@ struct AnnualFigures {
     double useful_to_3000 = 0.0;  ///< 100 to 3,000 lux
     double too_dark = 0.0;        ///< below 100 lux
     double too_bright = 0.0;      ///< above 3,000 lux
-    double sun_hours = 0.0;       ///< in which the sun shines on the sensor, whether the room is used or not
+    /// In which the sun shines on the sensor, whether the room is used or not; none if suns are not known.
+    std::optional<double> sun_hours;
 };
 
 /// The figures of one sensor. `lux`: one each lit hour. `target`: what the daylight autonomy asks for, lux.
 AnnualFigures annual_figures(const Weather& weather, std::span<const LitHour> hours, std::span<const float> lux,
-                             const Occupancy& occupancy, double target, double sun_hours);
+                             const Occupancy& occupancy, double target, std::optional<double> sun_hours);
 
 }  // namespace daylighting

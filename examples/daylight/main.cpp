@@ -1,4 +1,5 @@
 #include <cstdio>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -23,6 +24,7 @@
 #include "annual.hpp"
 #include "bounce.hpp"
 #include "options.hpp"
+#include "sky_matrix.hpp"
 #include "sun_rays.hpp"
 #include "trace.hpp"
 #include "visibility_file.hpp"
@@ -148,10 +150,35 @@ std::vector<double> add_suns(const Options& options, const VisibilityFile& trace
     return sun_hours;
 }
 
+/// The hours of a year: those of its weather, or, without one, those that a sky matrix has a column each for.
+Weather weather_of(const Options& options, const std::optional<SkyMatrix>& skies) {
+    if (!options.weather.empty()) {
+        Weather weather = read_epw(options.weather);
+        if (skies && skies->hours != weather.hours.size()) {
+            throw lightcuts::invalid_input(options.skies.string() + ": " + std::to_string(skies->hours) +
+                                           " columns, but " + options.weather.string() + " has " +
+                                           std::to_string(weather.hours.size()) + " hours; make it of that weather");
+        }
+        return weather;
+    }
+    if (skies->hours != 8760 && skies->hours != 8784) {
+        throw lightcuts::invalid_input(options.skies.string() + ": " + std::to_string(skies->hours) +
+                                       " columns, which are no year of 8760 or 8784 hours; give --weather too, "
+                                       "whose hours they are");
+    }
+    return calendar_year(skies->hours);
+}
+
 ExitStatus year(const Options& options) {
-    require_usable(year_outputs(options), {options.visibility, options.weather});
+    std::vector<std::filesystem::path> inputs{options.visibility};
+    for (const auto& path : {options.weather, options.skies}) {
+        if (!path.empty()) inputs.push_back(path);
+    }
+    require_usable(year_outputs(options), inputs);
     const render::Stopwatch watch;
-    const Weather weather = read_epw(options.weather);
+    std::optional<SkyMatrix> skies;
+    if (!options.skies.empty()) skies = read_sky_matrix(options.skies);
+    const Weather weather = weather_of(options, skies);
     const VisibilityFile traced(options.visibility);
     const SensorSet& sensors = traced.sensors();
     if (!options.picture.empty() && sensors.columns == 0) {
@@ -160,7 +187,8 @@ ExitStatus year(const Options& options) {
             ": its sensors are no grid, of which alone there are pictures; leave --picture out");
     }
     const Setting setting{.up = sensors.up, .turned = options.turned, .ground_albedo = options.ground};
-    const std::vector<LitHour> hours = lit_hours(weather, traced.directions(), setting);
+    const std::vector<LitHour> hours = skies ? lit_hours(*skies, weather, traced.directions(), setting)
+                                             : lit_hours(weather, traced.directions(), setting, options.cie_type);
     const std::vector<Sensor> all = traced.all();
     const CutMatrix cuts(all, [&](std::size_t i, auto& out) { traced.read_sky(i, out); });
     Illuminances lux;
@@ -168,12 +196,14 @@ ExitStatus year(const Options& options) {
         render::Progress progress((hours.size() + block_hours - 1) / block_hours, !options.quiet);
         lux = sky_light(cuts, traced.directions(), hours, setting, [&] { progress.step(); });
     }
-    const std::vector<double> sun_hours = add_suns(options, traced, all, weather, hours, lux);
+    std::vector<double> sun_hours;
+    if (!options.weather.empty()) sun_hours = add_suns(options, traced, all, weather, hours, lux);
     add_bounce(traced.bounce(), lux);
     lux.drop_beyond(sensors.sensors.size());
     std::vector<AnnualFigures> figures(sensors.sensors.size());
     tbb::parallel_for(std::size_t{0}, figures.size(), [&](std::size_t i) {
-        figures[i] = annual_figures(weather, hours, lux.of(i), options.occupancy, options.target, sun_hours[i]);
+        figures[i] = annual_figures(weather, hours, lux.of(i), options.occupancy, options.target,
+                                    sun_hours.empty() ? std::nullopt : std::optional(sun_hours[i]));
     });
     const double seconds = watch.seconds();
     if (!options.output.empty()) write_hourly(options.output, weather, hours, lux);

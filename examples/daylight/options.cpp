@@ -8,6 +8,7 @@
 #include <render/io/escape.hpp>
 #include <render/option_declaration.hpp>
 
+#include "cie_sky.hpp"
 #include "year_files.hpp"
 
 namespace daylighting {
@@ -34,6 +35,16 @@ void set_grid(LevelGrid& grid, const std::string& text) {
     }
     grid.corner = {numbers[0], numbers[1], numbers[2]};
     grid.opposite = {numbers[3], numbers[4], numbers[5]};
+}
+
+/// The CIE's standard sky that is named, or none for Perez'.
+std::optional<int> sky_of(const std::string& text) {
+    if (text == "perez") return std::nullopt;
+    const std::string_view prefix = "cie:";
+    const std::string_view all = text;
+    const auto type = all.starts_with(prefix) ? to_number<int>(all.substr(prefix.size())) : std::nullopt;
+    if (!type || *type < 1 || *type > cie_sky_count) refuse("--sky", text, "perez, or cie:1 to cie:16");
+    return *type;
 }
 
 void set_occupancy(Occupancy& occupancy, const std::string& text) {
@@ -87,7 +98,11 @@ void add_trace(CLI::App& app, Options& options, LevelGrid& grid, bool& has_grid,
 void add_year(CLI::App& app, Options& options) {
     Words words(app);
     words.file("TRACED,--traced", "a file of `trace`", options.visibility)->required();
-    words.file("--weather", "EnergyPlus weather file (.epw)", options.weather)->required();
+    words.file("--weather", "EnergyPlus weather file (.epw)", options.weather);
+    words.text("--sky", "perez|cie:N",
+               "skies that --weather makes: all-weather, or a CIE standard sky of 1 to 16 (perez)",
+               [&](const std::string& s) { options.cie_type = sky_of(s); });
+    words.file("--skies", "sky matrix of gendaymtx (.smx); --weather then gives suns alone", options.skies);
     words.file("-o,--output", "CSV of illuminance, an hour a line", options.output);
     words.file("--matrix", "the same for Radiance, a sensor a line", options.matrix);
     words.file("--annual", "CSV of a year's figures, a sensor a line", options.annual);
@@ -144,6 +159,16 @@ Options parse_options(int argc, const char* const* argv) {
         options.action = Options::Action::year;
         if (options.output.empty() && options.matrix.empty() && options.annual.empty() && options.picture.empty()) {
             throw usage_error("nothing is to be written: give --output, --matrix, --annual or --picture");
+        }
+        if (options.weather.empty()) {
+            if (options.skies.empty()) throw usage_error("give --weather, or --skies");
+            if (!options.scene.empty()) throw usage_error("--scene needs --weather, which says where the sun is");
+            if (options.figure == "sun") throw usage_error("--figure sun needs --weather, which says where the sun is");
+        }
+        for (const char* name : {"--sky", "--ground"}) {
+            if (!options.skies.empty() && year->get_option(name)->count() > 0) {
+                throw usage_error(std::string(name) + " is of no use with --skies, which have their own; leave it out");
+            }
         }
         if (!options.isa.empty() && options.scene.empty()) throw usage_error("--isa needs --scene");
         if (year->get_option("--figure")->count() > 0 && options.picture.empty()) {

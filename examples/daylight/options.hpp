@@ -36,7 +36,9 @@ struct Options {
 
     // year
     std::filesystem::path visibility;
-    std::filesystem::path weather;
+    std::filesystem::path weather;  ///< may be empty if there are `skies`
+    std::filesystem::path skies;    ///< a sky matrix; empty: skies are made of the weather
+    std::optional<int> cie_type;    ///< of all skies; empty: Perez' all-weather model
     std::filesystem::path matrix;
     std::filesystem::path annual;
     std::filesystem::path picture;

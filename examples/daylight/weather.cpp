@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include <lightcuts/core/invalid_input.hpp>
 #include <render/io/escape.hpp>
 #include <render/io/text_file.hpp>
 
@@ -176,9 +177,25 @@ private:
 
 }  // namespace
 
+Weather calendar_year(std::size_t hours) {
+    const bool is_leap = hours == 8784;
+    if (hours != 8760 && !is_leap) {
+        throw lightcuts::invalid_input(std::to_string(hours) + " hours are not a year of 8760 or 8784");
+    }
+    Weather weather;
+    for (int month = 1; month <= 12; ++month) {
+        for (int day = 1; day <= days_in(month, is_leap); ++day) {
+            for (int hour = 1; hour <= 24; ++hour) weather.hours.push_back({is_leap ? 2000 : 2001, month, day, hour});
+        }
+    }
+    return weather;
+}
+
+Weather epw_weather(std::string_view text, const std::filesystem::path& path) { return EpwReader(path).read(text); }
+
 Weather read_epw(const std::filesystem::path& path) {
     const std::string text = render::read_file(path);
-    return EpwReader(path).read(text);
+    return epw_weather(text, path);
 }
 
 }  // namespace daylighting

@@ -68,7 +68,7 @@ Illuminances sky_light(const CutMatrix& cuts, const DirectionTree& directions, s
 double add_sun(const LitHour& hour, const glm::vec3& normal, float seen, const Weather& weather, float& lux) {
     const float cosine = glm::dot(normal, hour.towards_sun);
     if (!(cosine > 0.0f)) return 0.0;
-    lux += seen * cosine * static_cast<float>(hour.sky.direct_illuminance());
+    lux += seen * cosine * static_cast<float>(hour.direct_illuminance);
     return seen > 0.5f && weather.hours[hour.hour].direct_normal >= least_sunshine ? 1.0 : 0.0;
 }
 

@@ -61,7 +61,7 @@ std::vector<std::size_t> lit_places(const Weather& weather, std::span<const LitH
 double value_of(const AnnualFigures& f, const std::string& figure) {
     if (figure == "autonomy") return f.autonomy;
     if (figure == "useful") return f.useful_to_3000;
-    return figure == "sun" ? f.sun_hours : f.mean;
+    return figure == "sun" ? f.sun_hours.value_or(0.0) : f.mean;
 }
 
 }  // namespace
@@ -133,7 +133,7 @@ void write_annual(const std::filesystem::path& path, const SensorSet& sensors, s
             out.number(share, 4);
         }
         out << ",";
-        out.number(f.sun_hours, 1);
+        if (f.sun_hours) out.number(*f.sun_hours, 1);
         out << "\n";
     }
     out.commit();

@@ -20,7 +20,8 @@ void write_hourly(const std::filesystem::path& path, const Weather& weather, std
 void write_matrix(const std::filesystem::path& path, const Weather& weather, std::span<const LitHour> hours,
                   const Illuminances& lux);
 
-/// A line each sensor: where it is, and its figures. `target`: for the name of a column.
+/// A line each sensor: where it is, and its figures; an empty field for hours of sun that are not known. `target`: for
+/// the name of a column.
 void write_annual(const std::filesystem::path& path, const SensorSet& sensors, std::span<const AnnualFigures> figures,
                   double target);
 

@@ -13,6 +13,7 @@
 #include <render/process.hpp>
 #include "support/temporary_folder.hpp"
 
+#include "daylight/sky_matrices.hpp"
 #include "daylight/synthetic_weather.hpp"
 
 namespace {
@@ -125,6 +126,37 @@ TEST_F(Program, takes_rays_to_suns_in_the_scene_that_was_traced) {
     EXPECT_FALSE(folder.has("other.csv"));
 }
 
+TEST_F(Program, takes_standard_skies) {
+    ASSERT_EQ(run(trace_grid).status, 0);
+    const auto year = [&](const std::string& options) {
+        const Process::Result lit = run("year a.cuts --weather week.epw -o h.csv --quiet " + options);
+        EXPECT_EQ(lit.status, 0) << lit.err;
+        return folder.read("h.csv");
+    };
+    const std::string perez = year("");
+    EXPECT_EQ(year("--sky perez"), perez);
+    std::set<std::string> all{perez};
+    for (int type = 1; type <= 16; ++type) all.insert(year("--sky cie:" + std::to_string(type)));
+    EXPECT_EQ(all.size(), 17u);
+}
+
+TEST_F(Program, takes_a_sky_matrix_with_weather_and_without) {
+    ASSERT_EQ(run(trace_grid).status, 0);
+    const auto even = [](std::size_t, std::size_t hour, int) { return hour % 24 < 12 ? 0.0 : 5.0; };
+    folder.write("year.smx", sky_matrix_text(146, 8760, "float", even));
+    folder.write("week.smx", sky_matrix_text(578, 168, "ascii", even));
+    const Process::Result alone = run("year a.cuts --skies year.smx -o h.csv --annual a.csv --picture p.png");
+    ASSERT_EQ(alone.status, 0) << alone.err;
+    EXPECT_THAT(alone.err, HasSubstr("16 sensors, 8760 hours, 4380 of them lit"));
+    EXPECT_THAT(folder.read("h.csv"), HasSubstr("\n12,31,24,"));
+    // Where suns are is not known, and there are no hours of sun to name.
+    EXPECT_THAT(folder.read("a.csv"), HasSubstr(",\n"));
+    const Process::Result with_suns = run("year a.cuts --skies week.smx --weather week.epw -o w.csv --annual b.csv");
+    ASSERT_EQ(with_suns.status, 0) << with_suns.err;
+    EXPECT_THAT(with_suns.err, HasSubstr("168 hours"));
+    EXPECT_EQ(folder.read("b.csv").find(",\n"), std::string::npos);
+}
+
 TEST_F(Program, says_what_it_is) {
     EXPECT_THAT(run("--help").out, HasSubstr("trace"));
     EXPECT_THAT(run("trace --help").out, HasSubstr("--sensors"));
@@ -143,6 +175,9 @@ TEST_F(Program, refuses_what_it_cannot_use_in_one_line_and_writes_nothing) {
     folder.write("bad.pts", "0 0 0 0 0 1\n0 0 0 0 0\n");
     folder.write("bad.epw", "LOCATION,x\n");
     folder.write("bad.cuts", "nothing\n");
+    const auto one = [](std::size_t, std::size_t, int) { return 1.0; };
+    folder.write("day.smx", sky_matrix_text(146, 24, "ascii", one));
+    folder.write("bad.smx", sky_matrix_text(145, 24, "ascii", one));
     const std::set<std::string> before = files();
     const Refused all[] = {
         {"", 2, "give what to do"},
@@ -168,6 +203,17 @@ TEST_F(Program, refuses_what_it_cannot_use_in_one_line_and_writes_nothing) {
         {"trace shed.obj -o a.cuts --sensors bad.pts", 1, "bad.pts:2: 5 numbers"},
         {"year two.cuts -o a.csv", 2, "--weather"},
         {"year two.cuts --weather week.epw", 2, "nothing is to be written"},
+        {"year two.cuts --weather week.epw -o a.csv --sky cie:17", 2, "perez, or cie:1 to cie:16"},
+        {"year two.cuts --weather week.epw -o a.csv --sky cie", 2, "perez, or cie:1 to cie:16"},
+        {"year two.cuts --skies day.smx -o a.csv --weather week.epw --sky cie:1", 2, "--sky is of no use with --skies"},
+        {"year two.cuts --skies day.smx -o a.csv --ground 0.1", 2, "--ground is of no use with --skies"},
+        {"year two.cuts --skies day.smx -o a.csv --scene shed.obj", 2, "--scene needs --weather"},
+        {"year two.cuts --skies day.smx --picture a.png --figure sun", 2, "--figure sun needs --weather"},
+        {"year two.cuts --skies day.smx -o a.csv", 1, "day.smx: 24 columns, which are no year"},
+        {"year two.cuts --skies day.smx -o a.csv --weather week.epw", 1, "day.smx: 24 columns, but week.epw has 168"},
+        {"year two.cuts --skies day.smx -o day.smx", 1, "would replace a file that is read"},
+        {"year two.cuts --skies bad.smx -o a.csv", 1, "bad.smx:4: NROWS is 145"},
+        {"year two.cuts --skies absent.smx -o a.csv", 1, "absent.smx"},
         {"year two.cuts --weather week.epw -o a.csv --figure sun", 2, "--figure needs --picture"},
         {"year two.cuts --weather week.epw -o a.csv --isa avx2", 2, "--isa needs --scene"},
         {"year two.cuts --weather week.epw -o a.csv --hours 18-8", 2, "FROM-TO"},

@@ -53,13 +53,12 @@ TEST(Year, gives_an_open_level_sensor_what_the_weather_says) {
     ASSERT_GT(hours.size(), 80u);
     Illuminances lux = sky_light(traced.matrix(), traced.directions, hours, {});
     for (std::size_t h = 0; h < hours.size(); ++h) {
-        EXPECT_NEAR(lux.of(0)[h], hours[h].sky.diffuse_illuminance(), 2e-5 * hours[h].sky.diffuse_illuminance());
+        EXPECT_NEAR(lux.of(0)[h], hours[h].diffuse_illuminance, 2e-5 * hours[h].diffuse_illuminance);
     }
     const double sunny = SunList(hours).add(traced.cuts[0].sun, traced.sensors.sensors[0].normal, weather, lux.of(0));
     double bright = 0.0;
     for (std::size_t h = 0; h < hours.size(); ++h) {
-        const AllWeatherSky& sky = hours[h].sky;
-        const double all = sky.diffuse_illuminance() + sky.direct_illuminance() * std::max(0.0, sky.towards_sun().z);
+        const double all = hours[h].diffuse_illuminance + hours[h].direct_illuminance * std::max(0.0, hours[h].sun.z);
         EXPECT_NEAR(lux.of(0)[h], all, 3e-5 * all);
         bright += hours[h].has_sun() && weather.hours[hours[h].hour].direct_normal >= 120.0 ? 1.0 : 0.0;
     }
@@ -142,7 +141,7 @@ TEST(SunRays, are_exact_where_the_nearest_direction_is_not) {
     for (std::size_t h = 0; h < hours.size(); ++h) {
         const glm::vec3 sun = hours[h].towards_sun;
         const bool seen = hours[h].has_sun() && (sun.z <= 0.0f || std::abs(sun.x) < 0.2f * sun.z);
-        const double all = hours[h].sky.direct_illuminance() * static_cast<double>(sun.y);
+        const double all = hours[h].direct_illuminance * static_cast<double>(sun.y);
         EXPECT_NEAR(lux[h], seen ? all : 0.0, 1e-4 * std::abs(all)) << sun.x << " " << sun.z;
         expected += seen ? 1.0 : 0.0;
     }
