@@ -22,6 +22,10 @@ namespace detail {
 template <class Op, class... F>
 using result_over = std::remove_cvref_t<std::invoke_result_t<Op&, const piecewise_value_of<F>&...>>;
 
+/// Where `op` can be called with the functions' values, its result can be added up.
+template <class Op, class... F>
+concept SummedOp = !std::invocable<Op&, const piecewise_value_of<F>&...> || PiecewiseValue<result_over<Op, F...>>;
+
 /// A sum of values times numbers of leaves, in double.
 template <PiecewiseValue V>
 class LeafSum {
@@ -65,7 +69,9 @@ constexpr auto sum_of(const A& a, const B&... b) {
 /// pre, throws, cost: as `merge`.
 template <class Op, PiecewiseFunction... F>
     requires(sizeof...(F) >= 1)
-&&PiecewiseValue<detail::result_over<Op, F...>> auto sum_over_leaves(Op&& op, const F&... functions) {
+&&detail::SummedOp<Op, F...> auto sum_over_leaves(Op&& op, const F&... functions) {
+    static_assert(std::invocable<Op&, const piecewise_value_of<F>&...>,
+                  "sum_over_leaves calls op(a value of each function): take as many values as functions");
     detail::LeafSum<detail::result_over<Op, F...>> sum;
     merge([&](std::uint32_t, std::uint32_t leaves, const auto&... values) { sum.add(leaves, op(values...)); },
           functions...);
@@ -74,22 +80,25 @@ template <class Op, PiecewiseFunction... F>
 
 /// The sum over the leaves of the product of the functions [Cut merging 2008, section 3.2]. Its error is bounded by
 /// `bounded_product`. pre, throws, cost: as `merge`.
-template <PiecewiseFunction... F>
+template <class... F>
     requires(sizeof...(F) >= 1)
 auto sum_of_products(const F&... functions) {
+    detail::require_functions<F...>();
     return sum_over_leaves([](const auto&... values) { return detail::product_of(values...); }, functions...);
 }
 
 /// Makes `out` the product of the functions. pre, throws, cost: as `merged`.
-template <class V, PiecewiseFunction... F>
+template <class V, class... F>
 void product(PiecewiseConstant<V>& out, const F&... functions) {
+    detail::require_functions<F...>();
     merged(
         out, [](const auto&... values) { return static_cast<V>(detail::product_of(values...)); }, functions...);
 }
 
 /// Makes `out` the sum of the functions. pre, throws, cost: as `merged`.
-template <class V, PiecewiseFunction... F>
+template <class V, class... F>
 void sum(PiecewiseConstant<V>& out, const F&... functions) {
+    detail::require_functions<F...>();
     merged(
         out, [](const auto&... values) { return static_cast<V>(detail::sum_of(values...)); }, functions...);
 }

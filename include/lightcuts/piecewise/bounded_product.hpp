@@ -234,6 +234,19 @@ std::uint32_t leaf_count_of(const WholeTree<Channels>& f) {
 template <class F>
 concept BoundedFactor = DeviatingFunction<F> || detail::is_whole_tree<F>;
 
+namespace detail {
+
+/// Says what is missing of the factors of a product.
+template <class First, class... Other>
+constexpr void require_bounded() {
+    static_assert(
+        DeviatingFunction<First> && (BoundedFactor<Other> && ...),
+        "bounded_product takes functions with scalar values and deviations, and a WholeTree in all places but the "
+        "first; of several channels take a PiecewiseChannel each");
+}
+
+}  // namespace detail
+
 /// The sum over the leaves of f g and a bound of its error, in one pass over the cut of `f` and of `g`, or a whole
 /// tree.
 ///
@@ -244,8 +257,9 @@ concept BoundedFactor = DeviatingFunction<F> || detail::is_whole_tree<F>;
 /// tree every node of the other's cut is such a K, and its own deviation is exact.
 /// pre: functions of one tree. throws: invalid_input if they have different numbers of leaves, or one has no
 /// deviations. cost: O(pieces); allocates nothing.
-template <DeviatingFunction F, BoundedFactor G>
+template <class F, class G>
 BoundedSum bounded_product(const F& f, const G& g) {
+    detail::require_bounded<F, G>();
     const std::uint32_t leaf_count = detail::common_leaf_count({detail::leaf_count_of(f), detail::leaf_count_of(g)});
     if (leaf_count == 0) return {};
     detail::ProductSum sum;
@@ -283,8 +297,9 @@ BoundedSum bounded_product(const F& f, const G& g) {
 ///   |error| <= w S_f S_g + |z| S_v S_f + |y| e_vg, and likewise where g is.
 /// The last term of the first line stands for the third moment, which [Cut merging 2008, Eq. 9] leaves out.
 /// pre: functions of one tree, 0 <= v <= 1. throws: as of two. cost: O(pieces); allocates nothing.
-template <DeviatingFunction V, BoundedFactor F, BoundedFactor G>
+template <class V, class F, class G>
 BoundedSum bounded_product(const V& v, const F& f, const G& g) {
+    detail::require_bounded<V, F, G>();
     const std::uint32_t leaf_count = detail::common_leaf_count(
         {detail::leaf_count_of(v), detail::leaf_count_of(f), detail::leaf_count_of(g)});
     if (leaf_count == 0) return {};

@@ -108,8 +108,12 @@ template <class Op, std::size_t... k, PiecewiseFunction... F>
 /// cost: O(N) a call; at most one call a piece of all functions; allocates nothing.
 template <class Op, PiecewiseFunction... F>
     requires(sizeof...(F) >= 1)
-&&requires(Op& op, std::uint32_t n, const F&... f) { op(n, n, f.values()[0]...); }
-void merge(Op&& op, const F&... functions) { detail::merge(op, std::index_sequence_for<F...>{}, functions...); }
+void merge(Op&& op, const F&... functions) {
+    static_assert(
+        requires(std::uint32_t n) { op(n, n, functions.values()[0]...); },
+        "merge calls op(node, leaves, a value of each function): take two numbers and as many values as functions");
+    detail::merge(op, std::index_sequence_for<F...>{}, functions...);
+}
 
 /// Storage of a merge of any number of functions; keep one a thread.
 template <class V>
@@ -170,8 +174,9 @@ void merge(std::span<const F> functions, MergeScratch<piecewise_value_of<F>>& sc
 /// has room.
 template <class V, class Op, PiecewiseFunction... F>
     requires(sizeof...(F) >= 1)
-&&std::invocable<Op&, const piecewise_value_of<F>&...> void merged(PiecewiseConstant<V>& out, Op&& op,
-                                                                   const F&... functions) {
+void merged(PiecewiseConstant<V>& out, Op&& op, const F&... functions) {
+    static_assert(std::invocable<Op&, const piecewise_value_of<F>&...>,
+                  "merged calls op(a value of each function): take as many values as functions");
     detail::common_leaf_count({detail::leaf_count_of(functions)...});
     detail::Filling filling(out);
     std::uint32_t end = 0;

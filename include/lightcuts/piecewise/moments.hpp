@@ -108,7 +108,10 @@ void refit_moments(const ClusterTree& tree, std::vector<Moments<Channels>>& mome
 /// The moments of a function at every node of `tree`, in node order. See `refit_moments`.
 template <std::invocable<std::uint32_t> Leaf>
 auto moments(const ClusterTree& tree, Leaf&& leaf) {
-    std::vector<MomentsOf<std::remove_cvref_t<std::invoke_result_t<Leaf&, std::uint32_t>>>> result;
+    using V = std::remove_cvref_t<std::invoke_result_t<Leaf&, std::uint32_t>>;
+    static_assert(PiecewiseValue<V>,
+                  "a function's values need to be float, double or a Spectrum: +, *, channels and a way to set them");
+    std::vector<MomentsOf<V>> result;
     refit_moments(tree, result, leaf);
     return result;
 }

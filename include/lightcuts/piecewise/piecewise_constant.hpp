@@ -42,6 +42,18 @@ concept PiecewiseFunction = requires(const F& f, std::size_t i) {
     f.values()[i];
 };
 
+namespace detail {
+
+/// Says what is missing where a call takes anything.
+template <class... F>
+constexpr void require_functions() {
+    static_assert((PiecewiseFunction<F> && ...),
+                  "a function on a tree needs pieces() const, a contiguous range of Piece that it holds, and values() "
+                  "const, which can be indexed by a piece's place");
+}
+
+}  // namespace detail
+
 /// The type of a function's values.
 template <PiecewiseFunction F>
 using piecewise_value_of = std::remove_cvref_t<decltype(std::declval<const F&>().values()[0])>;

@@ -1,0 +1,11 @@
+// expect: merge calls op(node, leaves, a value of each function)
+#include <cstdint>
+
+#include <lightcuts/piecewise/merge.hpp>
+
+double sum(const lightcuts::PiecewiseConstant<float>& f, const lightcuts::PiecewiseConstant<float>& g) {
+    double total = 0.0;
+    lightcuts::merge([&](std::uint32_t, std::uint32_t leaves, float a) { total += leaves * static_cast<double>(a); }, f,
+                     g);
+    return total;
+}
