@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 
 namespace benchmark {
 
@@ -40,37 +41,58 @@ struct Pyramid {
     }
 };
 
-}  // namespace
+double squared_norm(double wavelet, std::size_t level) {
+    // Its squared amplitude times its texels.
+    return wavelet * wavelet * std::pow(4.0, static_cast<double>(level));
+}
 
-HaarCube::HaarCube(std::size_t side, const std::vector<float>& texels, double most_error) : side_(side) {
-    std::vector<Pyramid> faces;
-    for (std::size_t f = 0; f < 6; ++f) faces.emplace_back(side, texels.data() + f * side * side);
-    const std::size_t levels = faces[0].sides.size() - 1;
-    // A wavelet's squared norm is its squared amplitude times its texels.
+/// Squared norms of all wavelets, in ascending order.
+std::vector<double> squares_of(std::size_t side, const std::vector<float>& texels) {
     std::vector<double> squares;
-    for (const Pyramid& p : faces) {
-        for (std::size_t level = 1; level <= levels; ++level) {
+    for (std::size_t f = 0; f < 6; ++f) {
+        const Pyramid p(side, texels.data() + f * side * side);
+        for (std::size_t level = 1; level < p.sides.size(); ++level) {
             for (std::size_t y = 0; y < p.sides[level]; ++y) {
                 for (std::size_t x = 0; x < p.sides[level]; ++x) {
-                    for (const double w : p.wavelets(level, x, y)) {
-                        squares.push_back(w * w * std::pow(4.0, static_cast<double>(level)));
-                    }
+                    for (const double w : p.wavelets(level, x, y)) squares.push_back(squared_norm(w, level));
                 }
             }
         }
     }
     std::sort(squares.begin(), squares.end());
-    double left_out = 0, least = 0;
-    for (const double s : squares) {
-        if (left_out + s > most_error * most_error) {
-            least = s;
-            break;
-        }
-        left_out += s;
-        least = s * (1 + 1e-12);
-    }
+    return squares;
+}
+
+std::size_t count_within(const std::vector<double>& squares, double most_error) {
+    double sum = 0.0;
+    std::size_t count = 0;
+    while (count < squares.size() && sum + squares[count] <= most_error * most_error) sum += squares[count++];
+    return count;
+}
+
+}  // namespace
+
+HaarCube HaarCube::within(std::size_t side, const std::vector<float>& texels, double most_error) {
+    const std::vector<double> squares = squares_of(side, texels);
+    return HaarCube(side, texels, squares, count_within(squares, most_error));
+}
+
+HaarCube HaarCube::of_terms(std::size_t side, const std::vector<float>& texels, std::size_t most_terms) {
+    const std::vector<double> squares = squares_of(side, texels);
+    const std::size_t kept = most_terms > 6 ? std::min(most_terms - 6, squares.size()) : 0;
+    return HaarCube(side, texels, squares, squares.size() - kept);
+}
+
+HaarCube::HaarCube(std::size_t side, const std::vector<float>& texels, const std::vector<double>& squares,
+                   std::size_t left_out)
+    : side_(side) {
+    const double least = left_out < squares.size() ? squares[left_out] : std::numeric_limits<double>::infinity();
+    // Of those that are just as large, as many as are left.
+    auto equal_left = static_cast<std::size_t>(std::upper_bound(squares.begin(), squares.end(), least) -
+                                               squares.begin()) -
+                      left_out;
     for (std::size_t f = 0; f < 6; ++f) {
-        const Pyramid& p = faces[f];
+        const Pyramid p(side, texels.data() + f * side * side);
         mean_[f] = static_cast<float>(p.means.back()[0]);
         ++terms_;
         const std::function<std::uint32_t(std::size_t, std::size_t, std::size_t)> build =
@@ -80,8 +102,10 @@ HaarCube::HaarCube(std::size_t side, const std::vector<float>& texels, double mo
             bool is_needed = false;
             std::array<double, 3> w = p.wavelets(level, x, y);
             for (double& v : w) {
-                const double square = v * v * std::pow(4.0, static_cast<double>(level));
-                if (square > 0 && square >= least) {
+                const double square = squared_norm(v, level);
+                const bool is_kept = square > 0 && (square > least || (square == least && equal_left > 0));
+                if (is_kept && square == least) --equal_left;
+                if (is_kept) {
                     ++terms_;
                     is_needed = true;
                 } else {
@@ -99,8 +123,26 @@ HaarCube::HaarCube(std::size_t side, const std::vector<float>& texels, double mo
             nodes_.push_back(node);
             return static_cast<std::uint32_t>(nodes_.size() - 1);
         };
-        root_[f] = build(levels, 0, 0);
+        root_[f] = build(p.sides.size() - 1, 0, 0);
     }
+}
+
+double HaarCube::product(const HaarCube& a, const HaarCube& b, std::uint32_t of_a, std::uint32_t of_b, double area) {
+    if (of_a == 0 || of_b == 0) return 0.0;  // wavelets of the one alone have no product with a constant
+    const Node &x = a.nodes_[of_a], &y = b.nodes_[of_b];
+    double sum = area * static_cast<double>(x.right * y.right + x.down * y.down + x.diagonal * y.diagonal);
+    for (std::size_t q = 0; q < 4; ++q) sum += product(a, b, x.child[q], y.child[q], 0.25 * area);
+    return sum;
+}
+
+double HaarCube::sum_of_products(const HaarCube& a, const HaarCube& b) {
+    const auto area = static_cast<double>(a.side_ * a.side_);
+    double sum = 0;
+    for (std::size_t f = 0; f < 6; ++f) {
+        sum += area * static_cast<double>(a.mean_[f]) * static_cast<double>(b.mean_[f]) +
+               product(a, b, a.root_[f], b.root_[f], area);
+    }
+    return sum;
 }
 
 double HaarCube::product(const HaarCube& a, const HaarCube& b, const HaarCube& c,

@@ -28,4 +28,18 @@ inline double median(std::vector<double> values) {
     return values[values.size() / 2];
 }
 
+/// Nanoseconds that `each(i)`, which returns how many units it did, takes a unit: medians over runs.
+template <class F>
+double nanoseconds(int runs, int count, const F& each) {
+    std::vector<double> times;
+    for (int run = 0; run < runs; ++run) {
+        double units = 0;
+        const double spent = seconds([&] {
+            for (int i = 0; i < count; ++i) units += static_cast<double>(each(i));
+        });
+        times.push_back(1e9 * spent / units);
+    }
+    return median(times);
+}
+
 }  // namespace benchmark

@@ -1,6 +1,6 @@
 /// Functions on a tree against what else one may represent and multiply functions by: Eigen's sparse vectors, a tree of
-/// pairwise merges, a loop over a std::priority_queue, Haar wavelets on a cube map. Prints all and writes
-/// piecewise.json.
+/// pairwise merges, a loop over a std::priority_queue, Haar wavelets, spherical harmonics, patches of the sky. Prints
+/// all and writes piecewise.json.
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,6 @@
 #include <queue>
 #include <random>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,18 +18,17 @@
 #include <lightcuts/piecewise/algebra.hpp>
 #include <lightcuts/piecewise/approximate.hpp>
 #include <lightcuts/piecewise/bounded_product.hpp>
-#include <lightcuts/piecewise/gain.hpp>
 #include <lightcuts/tree/build/divide.hpp>
-#include <lightcuts/tree/validate.hpp>
 #include <nlohmann/json.hpp>
 
 #include "figures.hpp"
-#include "haar.hpp"
+#include "function_peers.hpp"
 #include "timing.hpp"
 
 namespace {
 
 using namespace lightcuts;
+using benchmark::nanoseconds;
 using Function = PiecewiseConstant<float>;
 using Random = std::mt19937_64;
 
@@ -60,20 +58,6 @@ ClusterTree sphere_tree(std::uint32_t directions) {
         items.push_back({glm::vec3(r * std::cos(phi), r * std::sin(phi), z), 1.0f});
     }
     return divide(items, LongestAxis{});
-}
-
-/// Nanoseconds that `each(i)`, which returns how many units it did, takes a unit: medians over runs.
-template <class F>
-double nanoseconds(int runs, int count, const F& each) {
-    std::vector<double> times;
-    for (int run = 0; run < runs; ++run) {
-        double units = 0;
-        const double spent = benchmark::seconds([&] {
-            for (int i = 0; i < count; ++i) units += static_cast<double>(each(i));
-        });
-        times.push_back(1e9 * spent / units);
-    }
-    return benchmark::median(times);
 }
 
 double sink = 0;  // so that nothing is left out
@@ -210,7 +194,8 @@ nlohmann::json merging(int runs) {
         sink += bounded_product(pair_of(i), pair_of(i + 1), pair_of(i + 2)).error_bound;
         return 1;
     });
-    std::printf("three factors with a bound of the error: %.1f times the time without\n", bounded / plain);
+    std::printf("three factors with a bound of the error: %.0f ns, %.1f times the %.0f without\n", bounded,
+                bounded / plain, plain);
     result["bounded_over_plain"] = bounded / plain;
     return result;
 }
@@ -245,173 +230,16 @@ nlohmann::json ordering(int runs) {
     return {{"ordered_split_ns", ours}, {"ordered_over_queue", ours / queue}};
 }
 
-constexpr std::size_t side = 128;
-
-/// The direction of a texel.
-glm::dvec3 direction(std::size_t texel) {
-    const std::size_t face = texel / (side * side), y = texel / side % side, x = texel % side;
-    const double u = (2.0 * static_cast<double>(x) + 1.0) / side - 1.0,
-                 v = (2.0 * static_cast<double>(y) + 1.0) / side - 1.0;
-    const glm::dvec3 of_axis[]{{1, u, v}, {-1, u, v}, {u, 1, v}, {u, -1, v}, {u, v, 1}, {u, v, -1}};
-    return glm::normalize(of_axis[face]);
-}
-
-/// Each face halved along its longer side, down to texels: items are texels.
-ClusterTree cube_tree() {
-    std::vector<std::uint32_t> words;
-    struct Part {
-        std::size_t face, x, y, width, height;
-    };
-    const auto build = [&](const auto& self, const Part& p) -> void {
-        if (p.width == 1 && p.height == 1) {
-            words.push_back(ClusterTree::leaf_word(static_cast<std::uint32_t>((p.face * side + p.y) * side + p.x)));
-            return;
-        }
-        const auto first = static_cast<std::uint32_t>(words.size());
-        if (p.width >= p.height) {
-            self(self, {p.face, p.x, p.y, p.width / 2, p.height});
-            self(self, {p.face, p.x + p.width / 2, p.y, p.width / 2, p.height});
-        } else {
-            self(self, {p.face, p.x, p.y, p.width, p.height / 2});
-            self(self, {p.face, p.x, p.y + p.height / 2, p.width, p.height / 2});
-        }
-        words.push_back(first);
-    };
-    for (std::size_t face = 0; face < 6; ++face) {
-        build(build, {face, 0, 0, side, side});
-        if (face > 0) words.push_back(0);  // above all so far
-    }
-    ClusterTree tree(std::move(words));
-    validate(tree);
-    return tree;
-}
-
-/// Visibility from a point among balls, over the ground.
-std::vector<float> visibility(Random& random) {
-    std::vector<std::pair<glm::dvec3, double>> balls;
-    for (int i = 0; i < 30; ++i) {
-        const glm::dvec3 at(8 * unit(random) - 4, 8 * unit(random) - 4, 4 * unit(random));
-        balls.push_back({at, 0.3 + 0.7 * unit(random)});
-    }
-    std::vector<float> texels;
-    for (std::size_t t = 0; t < 6 * side * side; ++t) {
-        const glm::dvec3 d = direction(t);
-        bool is_free = d.z > 0;
-        for (const auto& [center, radius] : balls) {
-            const double along = glm::dot(center, d), distance2 = glm::dot(center, center);
-            is_free = is_free &&
-                      !(distance2 > radius * radius && along > 0 && distance2 - along * along < radius * radius);
-        }
-        texels.push_back(is_free ? 1.0f : 0.0f);
-    }
-    return texels;
-}
-
-std::vector<float> lobe(const glm::dvec3& axis, double exponent, double floor) {
-    std::vector<float> texels;
-    for (std::size_t t = 0; t < 6 * side * side; ++t) {
-        const double cosine = std::max(0.0, glm::dot(direction(t), axis));
-        texels.push_back(static_cast<float>(floor + std::pow(cosine, exponent)));
-    }
-    return texels;
-}
-
-double distance(const std::vector<float>& a, const std::vector<float>& b) {
-    double sum = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        sum += std::pow(static_cast<double>(a[i]) - static_cast<double>(b[i]), 2.0);
-    }
-    return std::sqrt(sum);
-}
-
-nlohmann::json wavelets(int runs) {
-    Random random(3);
-    const ClusterTree tree = cube_tree();
-    const auto cut_of = [&](const std::vector<float>& texels, double error, Function& out) {
-        const auto of = moments(tree, [&](std::uint32_t i) { return texels[i]; });
-        OrderedApproximation<float> ordered;
-        ordered.start(tree, of);
-        const auto gain = gains(tree, of);
-        ordered.refine_to_total_error(error, [&](std::uint32_t n) { return gain[n]; });
-        ordered.store(out);
-    };
-    const double texel_count = 6.0 * side * side;
-    nlohmann::json result;
-    std::printf("visibility on a 6 x %zu x %zu cube map\n%10s %10s %10s %10s\n", side, side, "RMS", "cut", "Haar",
-                "ratio");
-    for (const double rms : {0.15, 0.1, 0.075, 0.05}) {
-        double pieces = 0, terms = 0;
-        for (int view = 0; view < 10; ++view) {
-            const auto texels = visibility(random);
-            Function f;
-            const double error = rms * std::sqrt(texel_count);
-            cut_of(texels, error, f);
-            const benchmark::HaarCube haar(side, texels, error);
-            if (distance(haar.texels(), texels) > 1.001 * error) throw std::runtime_error("the wavelets are wrong");
-            pieces += static_cast<double>(f.size());
-            terms += static_cast<double>(haar.terms());
-        }
-        std::printf("%10.3f %10.0f %10.0f %10.2f\n", rms, pieces / 10, terms / 10, pieces / terms);
-        result["terms"].push_back({{"rms", rms}, {"cut", pieces / 10}, {"haar", terms / 10}});
-    }
-    // Visibility times a sky with a sun times a glossy lobe, each to the same share of its own norm.
-    std::printf("triple product, each factor within a share of its norm\n%10s %10s %10s %10s %12s %12s\n", "share",
-                "cut, ns", "Haar, ns", "speed-up", "cut, error", "Haar, error");
-    for (const double share : {0.2, 0.1, 0.05}) {
-        double cut_error = 0, haar_error = 0;
-        std::vector<Function> f;
-        std::vector<benchmark::HaarCube> h;
-        constexpr int count = 20;
-        for (int i = 0; i < count; ++i) {
-            const glm::dvec3 sun = glm::normalize(glm::dvec3(unit(random) - 0.5, unit(random) - 0.5, 0.6));
-            const glm::dvec3 axis = glm::normalize(glm::dvec3(unit(random) - 0.5, unit(random) - 0.5, 0.7));
-            const std::vector<float> factors[]{visibility(random), lobe(sun, 200.0, 0.02), lobe(axis, 20.0, 0.0)};
-            double exact = 0;
-            for (std::size_t t = 0; t < factors[0].size(); ++t) {
-                exact += static_cast<double>(factors[0][t]) * static_cast<double>(factors[1][t]) *
-                         static_cast<double>(factors[2][t]);
-            }
-            for (const auto& texels : factors) {
-                const double error = share * distance(texels, std::vector<float>(texels.size(), 0.0f));
-                cut_of(texels, error, f.emplace_back());
-                h.emplace_back(side, texels, error);
-            }
-            const std::size_t k = f.size() - 3;
-            const double norm = exact + 1.0;
-            cut_error += std::abs(sum_of_products(f[k], f[k + 1], f[k + 2]) - exact) / norm / count;
-            haar_error += std::abs(benchmark::HaarCube::sum_of_products(h[k], h[k + 1], h[k + 2]) - exact) / norm /
-                          count;
-        }
-        const double ours = nanoseconds(runs, count, [&](int i) {
-            const auto k = static_cast<std::size_t>(3 * i);
-            sink += sum_of_products(f[k], f[k + 1], f[k + 2]);
-            return 1;
-        });
-        const double theirs = nanoseconds(runs, count, [&](int i) {
-            const auto k = static_cast<std::size_t>(3 * i);
-            sink += benchmark::HaarCube::sum_of_products(h[k], h[k + 1], h[k + 2]);
-            return 1;
-        });
-        std::printf("%10.2f %10.0f %10.0f %10.1f %10.2f %% %10.2f %%\n", share, ours, theirs, theirs / ours,
-                    100 * cut_error, 100 * haar_error);
-        result["triple"].push_back({{"share", share},
-                                    {"cut_ns", ours},
-                                    {"haar_ns", theirs},
-                                    {"cut_error", cut_error},
-                                    {"haar_error", haar_error}});
-    }
-    return result;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
     int runs = 21;
-    CLI::App app{"Functions on a tree against sparse vectors, a priority queue and wavelets"};
+    CLI::App app{"Functions on a tree against sparse vectors, a priority queue, wavelets, harmonics and patches"};
     app.add_option("--runs", runs, "medians are over this odd number")->check(benchmark::odd_number());
     CLI11_PARSE(app, argc, argv);
     return benchmark::write_figures("bench-piecewise", "piecewise.json", [&] {
-        nlohmann::json result{{"merging", merging(runs)}, {"ordering", ordering(runs)}, {"wavelets", wavelets(runs)}};
+        nlohmann::json result{
+            {"merging", merging(runs)}, {"ordering", ordering(runs)}, {"peers", benchmark::function_peers(runs)}};
         result["sink"] = sink;
         return result;
     });
