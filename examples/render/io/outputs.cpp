@@ -1,17 +1,13 @@
 #include "io/outputs.hpp"
 
-#include <exception>
 #include <fstream>
-#include <functional>
-#include <memory>
-#include <new>
 #include <string>
 #include <system_error>
 #include <vector>
 
-#include <lightcuts/core/invalid_input.hpp>
 #include <nlohmann/json.hpp>
 
+#include "io/file_group.hpp"
 #include "io/output_file.hpp"
 
 namespace render {
@@ -34,54 +30,6 @@ std::vector<char> text_bytes(const RunReport& report) {
     const std::string text = to_json(report).dump(2) + "\n";
     return {text.begin(), text.end()};
 }
-
-/// The files of one picture: those that could be written whole get their names, if the first of them is among them.
-class FileGroup {
-public:
-    void add(const std::filesystem::path& path, const std::function<std::vector<char>()>& bytes) {
-        attempt(path, [&] {
-            auto file = std::make_unique<OutputFile>(path);
-            file->write(bytes());
-            files_.push_back({path, std::move(file)});
-        });
-        if (files_.empty()) throw lightcuts::invalid_input(problem_);
-    }
-
-    /// throws: invalid_input if a file is missing.
-    void commit() {
-        std::string written;
-        for (const auto& [path, file] : files_) {
-            if (!attempt(path, [&whole = file] { whole->commit(); })) {
-                if (written.empty()) break;
-                continue;
-            }
-            written += (written.empty() ? "" : ", ") + path.string();
-        }
-        if (problem_.empty()) return;
-        throw lightcuts::invalid_input(problem_ + (written.empty() ? "" : "; written: " + written));
-    }
-
-private:
-    struct File {
-        std::filesystem::path path;
-        std::unique_ptr<OutputFile> output;
-    };
-
-    bool attempt(const std::filesystem::path& path, const std::function<void()>& action) {
-        std::string problem;
-        try {
-            action();
-            return true;
-        } catch (const std::bad_alloc&) {
-            problem = path.string() + ": not enough memory to write it";
-        } catch (const std::exception& e) { problem = e.what(); }
-        problem_ += (problem_.empty() ? "" : "; ") + problem;
-        return false;
-    }
-
-    std::vector<File> files_;
-    std::string problem_;
-};
 
 }  // namespace
 

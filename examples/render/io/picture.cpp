@@ -110,7 +110,7 @@ Picture read_exr(const std::filesystem::path& path) {
     return exr_picture(read_file(path), path.string(), ExrUse::picture);
 }
 
-std::vector<char> png_bytes(int width, int height, const std::vector<glm::vec3>& colors) {
+std::vector<std::uint8_t> srgb_bytes(std::span<const glm::vec3> colors) {
     std::vector<std::uint8_t> bytes;
     bytes.reserve(3 * colors.size());
     for (const glm::vec3& color : colors) {
@@ -119,11 +119,19 @@ std::vector<char> png_bytes(int width, int height, const std::vector<glm::vec3>&
             bytes.push_back(static_cast<std::uint8_t>(std::lround(255.0f * encoded)));
         }
     }
+    return bytes;
+}
+
+std::vector<char> png_bytes(int width, int height, std::span<const std::uint8_t> bytes) {
     std::vector<char> encoded;
     if (stbi_write_png_to_func(append_bytes, &encoded, width, height, 3, bytes.data(), 3 * width) == 0) {
         throw std::bad_alloc();
     }
     return encoded;
+}
+
+std::vector<char> png_bytes(int width, int height, const std::vector<glm::vec3>& colors) {
+    return png_bytes(width, height, srgb_bytes(colors));
 }
 
 void write_png(const std::filesystem::path& path, int width, int height, const std::vector<glm::vec3>& colors) {

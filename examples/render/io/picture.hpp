@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -46,8 +48,14 @@ void write_exr(const std::filesystem::path& path, const Picture& picture);
 /// throws: invalid_input with the path when it cannot be read or has no color.
 Picture read_exr(const std::filesystem::path& path);
 
+/// Linear `colors` in [0, 1] as 8-bit sRGB: red, green and blue of each in turn.
+std::vector<std::uint8_t> srgb_bytes(std::span<const glm::vec3> colors);
+
 /// A PNG file of 8-bit sRGB colors; `colors` in [0, 1], rows from the top. throws: std::bad_alloc.
 std::vector<char> png_bytes(int width, int height, const std::vector<glm::vec3>& colors);
+
+/// The same of what `srgb_bytes` gives.
+std::vector<char> png_bytes(int width, int height, std::span<const std::uint8_t> bytes);
 
 /// Writes `png_bytes` in one step. throws: invalid_input with the path.
 void write_png(const std::filesystem::path& path, int width, int height, const std::vector<glm::vec3>& colors);
