@@ -6,9 +6,11 @@ renderer_packages=(
     libembree-dev libtbb-dev libopenexr-dev libstb-dev libcli11-dev
     nlohmann-json3-dev
 )
+window_packages=(libglfw3-dev libimgui-dev libgl-dev)
 test_packages=(
     ccache clang clang-format clang-tidy doxygen libgtest-dev libgmock-dev
     libcgal-dev libeigen3-dev pkgconf libc++-14-dev libc++abi-14-dev
+    xvfb xdotool libgl1-mesa-dri
 )
 
 fuzz_packages=(clang libclang-rt-14-dev)

@@ -52,7 +52,8 @@ if [ ${#chosen[@]} -eq 0 ]; then
     chosen=("${sections[@]}")
 fi
 
-if ! install_packages "${library_packages[@]}" "${renderer_packages[@]}" "${test_packages[@]}"; then
+if ! install_packages "${library_packages[@]}" "${renderer_packages[@]}" "${window_packages[@]}" \
+    "${test_packages[@]}"; then
     echo "0 passed, 1 failed"
     exit 1
 fi

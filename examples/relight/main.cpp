@@ -5,6 +5,7 @@
 #include "options.hpp"
 #include "prepare.hpp"
 #include "render_frames.hpp"
+#include "window.hpp"
 
 namespace {
 
@@ -15,6 +16,7 @@ render::ExitStatus run(const relight::Options& options) {
         case Action::version: render::print("lightcuts-relight " + render::program_version() + "\n"); break;
         case Action::prepare: relight::prepare(options); break;
         case Action::render: relight::render_frames(options); break;
+        case Action::view: return relight::show_window(options);
     }
     return render::done;
 }
@@ -22,6 +24,6 @@ render::ExitStatus run(const relight::Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    // Files are written in one step, so that a signal may end the program at any time.
+    // Files are written in one step, so that a signal may end the program at any time; a window closes first.
     return render::run_program("lightcuts-relight", [&] { return run(relight::parse_options(argc, argv)); });
 }

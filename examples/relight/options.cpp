@@ -6,6 +6,8 @@
 #include <render/io/escape.hpp>
 #include <render/option_declaration.hpp>
 
+#include "view_state.hpp"
+
 namespace relight {
 
 namespace {
@@ -80,10 +82,9 @@ void declare_camera(Declaration& app, render::Options& view) {
              });
 }
 
-void declare_render(CLI::App& command, Options& options) {
+/// What `render` and `view` have in common.
+void declare_relit(Declaration& app, Options& options) {
     constexpr float huge = std::numeric_limits<float>::max();
-    command.set_help_flag("-h,--help", "print this text");
-    Declaration app(command);
     app.file("cuts", "what `prepare` wrote", options.cut_file)->required();
     app.text("--scene", "SCENE", "of which it was prepared",
              [&options](const std::string& s) { options.view.scene = s; })
@@ -93,9 +94,6 @@ void declare_render(CLI::App& command, Options& options) {
                "a number above 0", options.map_scale);
     app.number("--rotate", "DEG", "of the map, counter-clockwise seen from above (0)", -1e6, 1e6, "degrees",
                options.rotation);
-    app.number("--frames", "N", "pictures, NAME-0000.exr and so on if there are several (1)", 1, 100000,
-               "a whole number from 1 to 100000", options.frames);
-    app.number("--turn", "DEG", "of the map from one frame to the next (0)", -1e6, 1e6, "degrees", options.turn);
     app.number<std::size_t>("--illumination-size", "N", "clusters of the illumination cut, at most (256)", 1, 1u << 21,
                             "a whole number from 1 to 2097152", options.illumination.size);
     app.number("--cluster-angle", "DEG", "largest radius of a cluster, if the size allows it (15)", 0.0, 180.0,
@@ -104,6 +102,30 @@ void declare_render(CLI::App& command, Options& options) {
                0.0, 1e6, "a number of at least 0", options.illumination.relative_error);
     app.number("--gloss-detail", "R", "largest radius of a cluster in a glossy lobe, as a share of its width (0.6)",
                0.01f, 100.0f, "a number from 0.01 to 100", options.relit.gloss_detail);
+    declare_camera(app, options.view);
+    app.number("--albedo", "S", "times what all surfaces reflect diffusely, at most 1 (1)", 0.0f, 1e3f,
+               "a number from 0 to 1000", options.materials.albedo);
+    app.number("--gloss-width", "S", "times the width of all glossy lobes (1)", 1e-3f, 1e3f,
+               "a number from 0.001 to 1000", options.materials.gloss_width);
+}
+
+void declare_picture(Declaration& app, const std::string& help, render::Options& view) {
+    app.text("-o,--output", "FILE", help, [&view](const std::string& s) {
+        const std::filesystem::path path(s);
+        if (!path.has_filename() || path.extension() == ".png" || path.extension() == ".json") {
+            refuse("--output", s, "the name of an OpenEXR file; .png and .json are written beside it");
+        }
+        view.output = path;
+    });
+}
+
+void declare_render(CLI::App& command, Options& options) {
+    command.set_help_flag("-h,--help", "print this text");
+    Declaration app(command);
+    declare_relit(app, options);
+    app.number("--frames", "N", "pictures, NAME-0000.exr and so on if there are several (1)", 1, 100000,
+               "a whole number from 1 to 100000", options.frames);
+    app.number("--turn", "DEG", "of the map from one frame to the next (0)", -1e6, 1e6, "degrees", options.turn);
     app.text(
         "--exhaustive", "pixels|vertices|none",
         "instead of cuts all directions one by one, with visibility from each pixel, from the vertices, or without",
@@ -114,17 +136,26 @@ void declare_render(CLI::App& command, Options& options) {
             options.exhaustive = s == "pixels" ? Truth::pixels : s == "vertices" ? Truth::vertices : Truth::none;
         });
     app.file("--reference", "OpenEXR picture to report the error of the first frame against", options.view.reference);
-    app.text("-o,--output", "FILE", "OpenEXR picture; .png and .json are written beside it (render.exr)",
-             [&options](const std::string& s) {
-                 const std::filesystem::path path(s);
-                 if (!path.has_filename() || path.extension() == ".png" || path.extension() == ".json") {
-                     refuse("--output", s, "the name of an OpenEXR file; .png and .json are written beside it");
-                 }
-                 options.view.output = path;
-             });
-    declare_camera(app, options.view);
+    declare_picture(app, "OpenEXR picture; .png and .json are written beside it (render.exr)", options.view);
     declare_common(app, options);
     command.add_flag("--quiet", options.view.quiet, "print nothing but errors");
+}
+
+void declare_view(CLI::App& command, Options& options) {
+    command.set_help_flag("-h,--help", "print this text");
+    command.footer(view_keys());
+    Declaration app(command);
+    declare_relit(app, options);
+    declare_picture(app, "what S saves: NAME-0000.exr, .png and so on, by the next free number (render.exr)",
+                    options.view);
+    app.file("--screenshot", "PNG of the whole window once its picture is finished; then it closes",
+             options.screenshot);
+    app.number("--seconds", "S", "after which the window closes (0: when it is told to)", 0.0, 1e6,
+               "a number from 0 to 1e6", options.seconds);
+    command.add_flag("--print-options", options.print_options,
+                     "print, for each finished picture, the options with which `render` makes the same");
+    declare_common(app, options);
+    command.add_flag("--quiet", options.view.quiet, "print nothing but errors and what --print-options asks for");
 }
 
 }  // namespace
@@ -138,12 +169,18 @@ Options parse_options(int argc, const char* const* argv) {
     CLI::App* const prepare = app.add_subcommand("prepare", "trace visibility at the vertices and keep it as cuts");
     CLI::App* const render = app.add_subcommand("render", "make pictures of it under a map");
     declare_prepare(*prepare, options);
+    CLI::App* const view = app.add_subcommand("view",
+                                              "show it under a map in a window, which answers to mouse and keys");
     declare_render(*render, options);
+    declare_view(*view, options);
     app.require_subcommand(0, 1);
     try {
         app.parse(argc, argv);
     } catch (const CLI::CallForHelp&) {
-        const CLI::App& asked = prepare->parsed() ? *prepare : render->parsed() ? *render : app;
+        const CLI::App& asked = *(prepare->parsed()  ? prepare
+                                  : render->parsed() ? render
+                                  : view->parsed()   ? view
+                                                     : &app);
         options.help = asked.help();
         return options;
     } catch (const CLI::ParseError& e) { throw usage_error(render::one_line(e.what())); }
@@ -151,11 +188,12 @@ Options parse_options(int argc, const char* const* argv) {
         options.action = Options::Action::version;
     } else if (prepare->parsed()) {
         options.action = Options::Action::prepare;
-    } else if (render->parsed()) {
-        options.action = Options::Action::render;
+    } else if (render->parsed() || view->parsed()) {
+        options.action = render->parsed() ? Options::Action::render : Options::Action::view;
+        options.materials.is_diffuse = options.view.diffuse_materials;
         render::check_camera(options.view);
     } else {
-        throw usage_error("nothing to do: give prepare or render");
+        throw usage_error("nothing to do: give prepare, render or view");
     }
     return options;
 }

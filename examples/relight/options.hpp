@@ -10,6 +10,7 @@
 
 #include "exhaustive.hpp"
 #include "illumination.hpp"
+#include "material_change.hpp"
 #include "relit_shader.hpp"
 #include "visibility_cuts.hpp"
 
@@ -20,7 +21,7 @@ enum class TreeKind : std::uint8_t { geometric, data_driven };
 
 /// The command line of lightcuts-relight with its defaults.
 struct Options {
-    enum class Action { help, version, prepare, render };
+    enum class Action { help, version, prepare, render, view };
 
     Action action = Action::help;
     std::string help;  ///< the text to print when the action is `help`
@@ -35,16 +36,24 @@ struct Options {
     TreeKind tree = TreeKind::geometric;
     double beta = 0.45;  ///< of a data-driven tree
 
-    // render
+    // render and view
     std::filesystem::path cut_file;
     std::filesystem::path map;
     float map_scale = 1.0f;
-    double rotation = 0.0;  ///< degrees
-    int frames = 1;
-    double turn = 0.0;  ///< degrees from frame to frame
+    double rotation = 0.0;     ///< degrees
+    MaterialChange materials;  ///< `is_diffuse` is that of `view`
     IlluminationOptions illumination;
     RelitOptions relit;
+
+    // render
+    int frames = 1;
+    double turn = 0.0;  ///< degrees from frame to frame
     std::optional<Truth> exhaustive;
+
+    // view
+    std::filesystem::path screenshot;  ///< empty: none
+    double seconds = 0.0;              ///< after which the window closes; 0: when it is told to
+    bool print_options = false;        ///< of each picture at rest
 };
 
 /// throws: render::usage_error, one line.

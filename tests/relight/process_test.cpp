@@ -103,7 +103,7 @@ TEST_F(RelightProgram, RefusesBadInput) {
 }
 
 TEST_F(RelightProgram, RefusesBadCommandLines) {
-    refuse("", 2, "prepare or render");
+    refuse("", 2, "prepare, render or view");
     refuse("prepare block.obj", 2, "--output");
     refuse("prepare block.obj -o b.relight --directions many", 2, "--directions many");
     refuse("prepare block.obj -o b.relight --sides back", 2, "front or both");
@@ -112,7 +112,12 @@ TEST_F(RelightProgram, RefusesBadCommandLines) {
     refuse("render b.relight --scene block.obj --env sky.exr --eye 1,2,3", 2, "--target");
     refuse("render b.relight --scene block.obj", 2, "--env");
     refuse("render b.relight --scene block.obj --env sky.exr --exhaustive all", 2, "--exhaustive all");
+    refuse("render b.relight --scene block.obj --env sky.exr --gloss-width 0", 2, "--gloss-width");
+    refuse("view b.relight --scene block.obj", 2, "--env");
+    refuse("view b.relight --scene block.obj --env sky.exr --seconds -1", 2, "--seconds");
+    refuse("view b.relight --scene block.obj --env sky.exr --frames 2", 2, "--frames");
     EXPECT_EQ(run("--help").status, 0);
+    EXPECT_NE(run("view --help").out.find("Esc"), std::string::npos);
     EXPECT_NE(run("prepare --help").out.find("--deviation"), std::string::npos);
     EXPECT_NE(run("--version").out.find("lightcuts-relight "), std::string::npos);
 }

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <filesystem>
+
+#include "frame_thread.hpp"
+
+namespace relight {
+
+/// Saves `frame` as NAME-0000.exr and NAME-0000.png, where `whole` is NAME.exr, or by the first number of which there
+/// is neither: radiance, and the colors as they are shown. Returns the name of the former.
+/// throws: invalid_input; each of the files is written whole or not at all.
+std::filesystem::path save_picture(const std::filesystem::path& whole, const ShownFrame& frame);
+
+}  // namespace relight

@@ -1,0 +1,145 @@
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <lightcuts/core/invalid_input.hpp>
+#include <relight/frame_thread.hpp>
+
+#include "viewed_world.hpp"
+
+namespace {
+
+/// Takes pictures until one holds what is waited for; null after a minute.
+std::shared_ptr<const relight::ShownFrame> wait_for(relight::FrameThread& thread,
+                                                    const std::function<bool(const relight::ShownFrame&)>& holds) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+    while (std::chrono::steady_clock::now() < end) {
+        const auto frame = thread.take();
+        if (frame && holds(*frame)) return frame;
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return nullptr;
+}
+
+class FrameThreadTest : public ::testing::Test {
+protected:
+    ViewedWorld viewed;
+    relight::FrameSource source{viewed.options, viewed.prepared, relight::read_environment(viewed.options)};
+    relight::FrameSource other{viewed.options, viewed.prepared, relight::read_environment(viewed.options)};
+
+    static bool is_at_rest(const relight::ShownFrame& frame) { return frame.is_at_rest(); }
+};
+
+TEST_F(FrameThreadTest, ComesToRestAtThePictureThatWasAskedFor) {
+    std::atomic<int> calls{0};
+    relight::FrameThread thread(source, 2, [&] { ++calls; });
+    relight::ShownState state{viewed.state(50, 30)};
+    for (int i = 0; i < 20; ++i) {
+        state.frame.rotation = i;
+        thread.show(state);
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    const auto frame = wait_for(thread, [&](const auto& f) { return f.is_at_rest() && f.state == state; });
+    ASSERT_TRUE(frame);
+    EXPECT_EQ(frame->picture->pixels, other.picture(state.frame).value().pixels);
+    EXPECT_EQ(frame->figures.points, other.figures().points);
+    EXPECT_GE(calls, 2);
+}
+
+TEST_F(FrameThreadTest, MovesInCoarsePictures) {
+    relight::FrameThread thread(source, 2, [] {});
+    relight::ShownState state{viewed.state(50, 30)};
+    thread.show(state);
+    const auto coarse = wait_for(thread, [](const auto&) { return true; });
+    ASSERT_TRUE(coarse);
+    // The first is coarse, unless two have been made since.
+    relight::FrameState smaller = state.frame;
+    smaller.width = (50 + coarse->divisor - 1) / coarse->divisor;
+    smaller.height = (30 + coarse->divisor - 1) / coarse->divisor;
+    EXPECT_EQ(coarse->picture->width, smaller.width);
+    EXPECT_EQ(coarse->picture->pixels, other.picture(smaller).value().pixels);
+}
+
+TEST_F(FrameThreadTest, ToneCurveStaysUntilAnotherIsAskedFor) {
+    relight::FrameThread thread(source, 2, [] {});
+    relight::ShownState state{viewed.state()};
+    thread.show(state);
+    const auto first = wait_for(thread, is_at_rest);
+    ASSERT_TRUE(first);
+    const render::ToneCurve curve = render::tone_curve(*first->picture);
+    const auto shown = [&](render::ToneCurve c, double stops) {
+        c.exposure *= std::exp2(stops);
+        return render::srgb_bytes(render::tone_mapped(other.picture(state.frame).value(), c));
+    };
+    EXPECT_EQ(first->bytes, shown(curve, 0.0));
+
+    state.frame.materials.albedo = 0.25f;
+    state.exposure = -1.0;
+    thread.show(state);
+    const auto darker = wait_for(thread, [&](const auto& f) { return f.is_at_rest() && f.state == state; });
+    ASSERT_TRUE(darker);
+    EXPECT_EQ(darker->bytes, shown(curve, -1.0));
+
+    state.fits = 1;
+    thread.show(state);
+    const auto fitted = wait_for(thread, [&](const auto& f) { return f.is_at_rest() && f.state == state; });
+    ASSERT_TRUE(fitted);
+    // The same picture, exposed anew.
+    EXPECT_EQ(fitted->picture, darker->picture);
+    EXPECT_EQ(fitted->bytes, shown(render::tone_curve(*fitted->picture), -1.0));
+    EXPECT_NE(fitted->bytes, darker->bytes);
+}
+
+TEST_F(FrameThreadTest, EndsWhateverIsUnderWay) {
+    for (const int milliseconds : {0, 1, 3, 10, 30}) {
+        relight::FrameThread thread(source, 2, [] {});
+        thread.show({viewed.state(400, 300)});
+        std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+    }
+    // The source is as good as before.
+    EXPECT_EQ(source.picture(viewed.state()).value().pixels, other.picture(viewed.state()).value().pixels);
+}
+
+TEST(FrameThread, TellsOfDamagedCuts) {
+    ViewedWorld viewed;
+    std::string content = viewed.world.folder.read("scene.relight");
+    // Among the cuts, which come last and take most of the file.
+    for (std::size_t i = content.size() / 2; i < content.size(); i += 16) content[i] = static_cast<char>(~content[i]);
+    viewed.world.folder.write("damaged.relight", content);
+    const relight::PreparedScene damaged(viewed.world.folder / "damaged.relight",
+                                         relight::load_still_scene(viewed.world.folder / "scene.obj"),
+                                         render::RayTracer());
+    relight::FrameSource source(viewed.options, damaged, relight::read_environment(viewed.options));
+    relight::FrameThread thread(source, 2, [] {});
+    thread.show({viewed.state()});
+    EXPECT_THROW(wait_for(thread, [](const auto& frame) { return frame.is_at_rest(); }), lightcuts::invalid_input);
+}
+
+TEST(Pace, GoesAsCoarseAsItTakesAndBack) {
+    relight::Pace pace;
+    for (int i = 0; i < 10; ++i) pace.took(1.0);
+    EXPECT_EQ(pace.divisor(), relight::Pace::coarsest);
+    pace.took(0.09);
+    EXPECT_EQ(pace.divisor(), relight::Pace::coarsest);
+    for (int i = 0; i < 10; ++i) pace.took(0.001);
+    EXPECT_EQ(pace.divisor(), 1);
+}
+
+TEST(Pace, RefinementEndsAtTheFullPicture) {
+    for (int divisor = relight::Pace::coarsest; divisor > 1; divisor /= 2) {
+        int steps = 0;
+        for (int d = divisor; d > 1; ++steps) {
+            ASSERT_LT(relight::Pace::finer(d), d);
+            d = relight::Pace::finer(d);
+        }
+        EXPECT_LE(steps, 2);
+    }
+}
+
+}  // namespace
