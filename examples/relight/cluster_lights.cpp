@@ -21,23 +21,33 @@ void ClusterLights::clear() {
     for_each_lane([](std::vector<float>& lane) { lane.clear(); });
     power_ = glm::mat3(0.0f);
     towards_ = glm::vec3(0.0f);
+    weight_ = 0.0f;
 }
 
-void ClusterLights::add(std::uint32_t node, const Illumination::Light& light, const glm::vec3& visible) {
+void ClusterLights::add(std::uint32_t node, const glm::vec3& where, const glm::vec3& power, const glm::vec3& visible) {
     nodes_.push_back({node, visible});
-    for (int k = 0; k < 3; ++k) power_[k] += light.power * visible[k];
+    for (int k = 0; k < 3; ++k) power_[k] += power * visible[k];
     // A little in any case, so that a cluster without light has a direction, too.
-    const float seen = (light.power.x + light.power.y + light.power.z) * (visible.x + visible.y + visible.z);
-    towards_ += light.direction * (seen + 1e-30f);
+    const float seen = (power.x + power.y + power.z) * (visible.x + visible.y + visible.z) + 1e-30f;
+    towards_ += where * seen;
+    weight_ += seen;
 }
 
 void ClusterLights::end_cluster(float radius) {
     if (nodes_.size() == (ends_.empty() ? 0 : ends_.back())) return;
     const float length = glm::length(towards_ * 1e15f);  // of what may be tiny
-    const glm::vec3 towards = length > 0.0f ? towards_ * 1e15f / length : glm::vec3(0.0f, 1.0f, 0.0f);
-    x_.push_back(towards.x);
-    y_.push_back(towards.y);
-    z_.push_back(towards.z);
+    append(length > 0.0f ? towards_ * 1e15f / length : glm::vec3(0.0f, 1.0f, 0.0f), radius);
+}
+
+void ClusterLights::end_cluster_of_places(float radius) {
+    if (nodes_.size() == (ends_.empty() ? 0 : ends_.back())) return;
+    append(towards_ / weight_, radius);
+}
+
+void ClusterLights::append(const glm::vec3& where, float radius) {
+    x_.push_back(where.x);
+    y_.push_back(where.y);
+    z_.push_back(where.z);
     for (std::size_t k = 0; k < 3; ++k) {
         const glm::vec3& power = power_[static_cast<int>(k)];
         red_[k].push_back(power.x);
@@ -48,6 +58,7 @@ void ClusterLights::end_cluster(float radius) {
     radii_.push_back(radius);
     power_ = glm::mat3(0.0f);
     towards_ = glm::vec3(0.0f);
+    weight_ = 0.0f;
 }
 
 void ClusterLights::finish() {
@@ -56,19 +67,29 @@ void ClusterLights::finish() {
     });
 }
 
-LIGHTCUTS_VECTORIZED glm::vec3 ClusterLights::irradiance(const glm::vec3& corners, const glm::vec3& normal,
-                                                         const glm::vec3& horizon) const {
+template <bool OfPlaces>
+[[gnu::always_inline]] inline glm::vec3 ClusterLights::irradiance_at(const glm::vec3& corners, const glm::vec3& from,
+                                                                     const glm::vec3& normal,
+                                                                     const glm::vec3& horizon) const {
     constexpr int lanes = lightcuts::lane_count;
     alignas(32) float red[lanes] = {}, green[lanes] = {}, blue[lanes] = {};
-    const glm::vec3 w = corners, n = normal, h = horizon;
+    const glm::vec3 w = corners, n = normal, h = horizon, p = from;
     for (std::size_t begin = 0; begin < x_.size(); begin += lanes) {
         const float *x = &x_[begin], *y = &y_[begin], *z = &z_[begin];
         const float *ra = &red_[0][begin], *rb = &red_[1][begin], *rc = &red_[2][begin];
         const float *ga = &green_[0][begin], *gb = &green_[1][begin], *gc = &green_[2][begin];
         const float *ba = &blue_[0][begin], *bb = &blue_[1][begin], *bc = &blue_[2][begin];
         for (int i = 0; i < lanes; ++i) {
-            const float cosine = n.x * x[i] + n.y * y[i] + n.z * z[i];
-            const float above = h.x * x[i] + h.y * y[i] + h.z * z[i];
+            float cosine, above;
+            if constexpr (OfPlaces) {
+                const float dx = x[i] - p.x, dy = y[i] - p.y, dz = z[i] - p.z;
+                cosine = (n.x * dx + n.y * dy + n.z * dz) *
+                         lightcuts::detail::inverse_sqrt(dx * dx + dy * dy + dz * dz);
+                above = h.x * dx + h.y * dy + h.z * dz;
+            } else {
+                cosine = n.x * x[i] + n.y * y[i] + n.z * z[i];
+                above = h.x * x[i] + h.y * y[i] + h.z * z[i];
+            }
             const float lit = lightcuts::detail::select(lightcuts::detail::smaller(cosine, above) > 0.0f, cosine, 0.0f);
             red[i] += lit * (w.x * ra[i] + w.y * rb[i] + w.z * rc[i]);
             green[i] += lit * (w.x * ga[i] + w.y * gb[i] + w.z * gc[i]);
@@ -78,6 +99,17 @@ LIGHTCUTS_VECTORIZED glm::vec3 ClusterLights::irradiance(const glm::vec3& corner
     glm::vec3 sum(0.0f);
     for (int i = 0; i < lanes; ++i) sum += glm::vec3(red[i], green[i], blue[i]);
     return sum;
+}
+
+LIGHTCUTS_VECTORIZED glm::vec3 ClusterLights::irradiance(const glm::vec3& corners, const glm::vec3& normal,
+                                                         const glm::vec3& horizon) const {
+    return irradiance_at<false>(corners, glm::vec3(0.0f), normal, horizon);
+}
+
+LIGHTCUTS_VECTORIZED glm::vec3 ClusterLights::irradiance_from_places(const glm::vec3& corners, const glm::vec3& from,
+                                                                     const glm::vec3& normal,
+                                                                     const glm::vec3& horizon) const {
+    return irradiance_at<true>(corners, from, normal, horizon);
 }
 
 }  // namespace relight

@@ -7,6 +7,7 @@
 #include <render/rays/ray_scene.hpp>
 
 #include "directions.hpp"
+#include "patches.hpp"
 #include "seen_points.hpp"
 #include "site.hpp"
 #include "site_sky.hpp"
@@ -25,5 +26,12 @@ enum class Truth : std::uint8_t {
 void shade_exhaustively(const SeenPoints& seen, const Sites& sites, const Directions& directions,
                         std::span<const glm::vec3> power, const render::RayScene& rays, Sides sides, Truth truth,
                         bool shown, std::span<glm::vec3> radiance);
+
+/// Adds to `radiance`, by point, what it reflects of the light of all patches one by one. `patch_radiance`: by patch.
+/// Otherwise as `shade_exhaustively`.
+void add_bounce_exhaustively(const SeenPoints& seen, const Sites& sites, const Patches& patches,
+                             const render::Scene& scene, std::span<const glm::vec3> patch_radiance,
+                             const render::RayScene& rays, Sides sides, Truth truth, bool shown,
+                             std::span<glm::vec3> radiance);
 
 }  // namespace relight

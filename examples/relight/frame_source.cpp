@@ -46,12 +46,16 @@ bool FrameSource::look(const FrameState& state) {
     if (!seen_of_ || !see_alike(*seen_of_, state)) {
         seen_of_.reset();
         shader_.reset();
+        bounce_.reset();
+        const render::Shade shade = state.materials.is_diffuse ? render::Shade::diffuse : render::Shade::full;
         const render::View view(state.camera, prepared_.mesh.scene.origin, state.width, state.height);
-        seen_ = see(prepared_.mesh.scene, prepared_.rays, view, options_.view.spp, options_.view.seed,
-                    state.materials.is_diffuse ? render::Shade::diffuse : render::Shade::full);
+        seen_ = see(prepared_.mesh.scene, prepared_.rays, view, options_.view.spp, options_.view.seed, shade);
         own_lobes_.assign(seen_.points.begin(), seen_.points.end());
         radiance_.resize(seen_.points.size());
         if (!options_.exhaustive) shader_.emplace(prepared_.file, prepared_.mesh.sites, seen_);
+        if (options_.with_bounce && !prepared_.file.patches().empty()) {
+            bounce_.emplace(prepared_.file, prepared_.mesh.scene, prepared_.mesh.sites, seen_, shade);
+        }
         figures_.points = seen_.points.size();
         figures_.mean_visibility_cut = shader_ ? shader_->mean_cut_size() : 0.0;
         seen_of_ = state;
@@ -66,9 +70,8 @@ bool FrameSource::look(const FrameState& state) {
 }
 
 void FrameSource::change_materials(const MaterialChange& change) {
-    tbb::parallel_for(std::size_t{0}, own_lobes_.size(), [&](std::size_t i) {
-        static_cast<render::SurfaceLobes&>(seen_.points[i]) = changed(own_lobes_[i], change);
-    });
+    change_all(own_lobes_, change, seen_.points);
+    if (bounce_) bounce_->change_materials(change);
 }
 
 bool FrameSource::light(double rotation) {
@@ -83,14 +86,33 @@ bool FrameSource::light(double rotation) {
 }
 
 void FrameSource::shade() {
-    if (!options_.exhaustive) {
-        figures_.illumination_cut = illumination_.cut().size();
-        figures_.relit = shader_->shade(illumination_, options_.relit, radiance_);
+    if (options_.exhaustive) {
+        const RelightFile& file = prepared_.file;
+        shade_exhaustively(seen_, prepared_.mesh.sites, file.directions(), power_, prepared_.rays,
+                           file.preparation().sides, *options_.exhaustive, !options_.view.quiet, radiance_);
+        if (bounce_) add_bounce_exhaustively();
         return;
     }
+    figures_.illumination_cut = illumination_.cut().size();
+    figures_.relit = shader_->shade(illumination_, options_.relit, radiance_);
+    figures_.bounce_cut = 0;
+    if (bounce_ && !is_canceled()) {
+        bounce_->add(illumination_, options_.bounce, options_.relit, radiance_);
+        figures_.bounce_cut = bounce_->light_cut_size();
+    }
+}
+
+void FrameSource::add_bounce_exhaustively() {
     const RelightFile& file = prepared_.file;
-    shade_exhaustively(seen_, prepared_.mesh.sites, file.directions(), power_, prepared_.rays, file.preparation().sides,
-                       *options_.exhaustive, !options_.view.quiet, radiance_);
+    const Sites& sites = prepared_.mesh.sites;
+    const Sides sides = file.preparation().sides;
+    const SeenPoints& points = bounce_->points();
+    std::vector<glm::vec3> light(points.points.size());
+    shade_exhaustively(points, sites, file.directions(), power_, prepared_.rays, sides, *options_.exhaustive,
+                       !options_.view.quiet, light);
+    for (std::size_t i = 0; i < light.size(); ++i) light[i] *= points.points[i].weight;
+    relight::add_bounce_exhaustively(seen_, sites, file.patches(), prepared_.mesh.scene, light, prepared_.rays, sides,
+                                     *options_.exhaustive, !options_.view.quiet, radiance_);
 }
 
 std::optional<render::Picture> FrameSource::picture(const FrameState& state) {

@@ -10,6 +10,7 @@
 #include <render/scene.hpp>
 #include <render/surfaces/surface_lobes.hpp>
 
+#include "bounce.hpp"
 #include "illumination.hpp"
 #include "material_change.hpp"
 #include "nearest_direction.hpp"
@@ -38,6 +39,7 @@ struct FrameFigures {
     double mean_visibility_cut = 0.0;  ///< of the cuts in use
     std::size_t illumination_cut = 0;  ///< size
     RelitStatistics relit;
+    std::size_t bounce_cut = 0;  ///< size of the cut of reflected light; 0: there is none
     double seconds_light = 0.0;  ///< to turn the map and to cut it; 0 if it was there already
     double seconds_shade = 0.0;
 
@@ -72,6 +74,7 @@ private:
     void change_materials(const MaterialChange& change);
     bool light(double rotation);
     void shade();
+    void add_bounce_exhaustively();
     render::Picture compose() const;
 
     const Options& options_;
@@ -87,6 +90,7 @@ private:
     std::vector<render::SurfaceLobes> own_lobes_;  ///< by point, of the scene's own materials
     std::optional<FrameState> seen_of_;
     std::optional<RelitShader> shader_;
+    std::optional<Bounce> bounce_;
     std::vector<glm::vec3> radiance_;  ///< by point
     FrameFigures figures_;
 };

@@ -1,7 +1,9 @@
 #include "material_change.hpp"
 
 #include <algorithm>
+#include <cstddef>
 
+#include <oneapi/tbb/parallel_for.h>
 #include <glm/common.hpp>
 
 namespace relight {
@@ -30,6 +32,12 @@ render::SurfaceLobes changed(const render::SurfaceLobes& lobes, const MaterialCh
         if (lobes.model == Model::phong) result.shininess = std::max(0.0f, (lobes.shininess + 2.0f) / (w * w) - 2.0f);
     }
     return result;
+}
+
+void change_all(std::span<const render::SurfaceLobes> own, const MaterialChange& change,
+                std::span<render::SurfacePoint> points) {
+    tbb::parallel_for(std::size_t{0}, own.size(),
+                      [&](std::size_t i) { static_cast<render::SurfaceLobes&>(points[i]) = changed(own[i], change); });
 }
 
 }  // namespace relight

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <span>
+
+#include <render/surfaces/surface.hpp>
 #include <render/surfaces/surface_lobes.hpp>
 
 namespace relight {
@@ -17,5 +20,9 @@ struct MaterialChange {
 /// decided where they are made. A GGX alpha stays between 0.0004, that of the smoothest that is no mirror, and 1, an
 /// exponent at least 0. pre: both factors are finite, the albedo's at least 0, the width's above 0.
 render::SurfaceLobes changed(const render::SurfaceLobes& lobes, const MaterialChange& change);
+
+/// Gives each of `points` its own lobes, changed. pre: as many lobes as points. threads: those of the calling arena
+void change_all(std::span<const render::SurfaceLobes> own, const MaterialChange& change,
+                std::span<render::SurfacePoint> points);
 
 }  // namespace relight

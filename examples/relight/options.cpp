@@ -55,6 +55,21 @@ void declare_prepare(CLI::App& command, Options& options) {
         if (s != "8" && s != "16" && s != "32") refuse("--bits", s, "8, 16 or 32");
         options.cuts.bits = s == "8" ? ValueBits::eight : s == "16" ? ValueBits::sixteen : ValueBits::full;
     });
+    app.text("--bounce", "off|N", "light that surfaces reflect once, of N points spread over them (off; alone: 16384)",
+             [&options](const std::string& s) {
+                 if (s == "off") {
+                     options.bounce_points = 0;
+                 } else {
+                     options.bounce_points = s.empty()
+                                                 ? std::size_t{16384}
+                                                 : number_in<std::size_t>("--bounce", s, 16, 1u << 20,
+                                                                          "off, or a whole number from 16 to 1048576");
+                 }
+             })
+        ->expected(0, 1);
+    app.number("--bounce-deviation", "S",
+               "largest L2 error of a cluster of its points, in steradians (0.002); 0: exact", 0.0, 1e6,
+               "a number from 0 to 1e6", options.bounce_deviation);
     declare_common(app, options);
     command.add_flag("--quiet", options.view.quiet, "print nothing but errors");
 }
@@ -102,6 +117,13 @@ void declare_relit(Declaration& app, Options& options) {
                0.0, 1e6, "a number of at least 0", options.illumination.relative_error);
     app.number("--gloss-detail", "R", "largest radius of a cluster in a glossy lobe, as a share of its width (0.6)",
                0.01f, 100.0f, "a number from 0.01 to 100", options.relit.gloss_detail);
+    app.text("--bounce", "on|off", "light that surfaces reflect once, if it was prepared (on)",
+             [&options](const std::string& s) {
+                 if (s != "on" && s != "off") refuse("--bounce", s, "on or off");
+                 options.with_bounce = s == "on";
+             });
+    app.number<std::size_t>("--bounce-size", "N", "clusters of the cut of that light, at most (256)", 1, 1u << 21,
+                            "a whole number from 1 to 2097152", options.bounce.size);
     declare_camera(app, options.view);
     app.number("--albedo", "S", "times what all surfaces reflect diffusely, at most 1 (1)", 0.0f, 1e3f,
                "a number from 0 to 1000", options.materials.albedo);

@@ -8,6 +8,7 @@
 
 #include <render/options.hpp>
 
+#include "bounce_shader.hpp"
 #include "exhaustive.hpp"
 #include "illumination.hpp"
 #include "material_change.hpp"
@@ -34,7 +35,9 @@ struct Options {
     CutOptions cuts;
     double longest_edge = 0.0;  ///< to which the mesh is refined; 0: as it is
     TreeKind tree = TreeKind::geometric;
-    double beta = 0.45;  ///< of a data-driven tree
+    double beta = 0.45;               ///< of a data-driven tree
+    std::size_t bounce_points = 0;    ///< spread over the surface, for light that it reflects; 0: without
+    double bounce_deviation = 0.002;  ///< steradians: largest L2 error of a cluster of patches
 
     // render and view
     std::filesystem::path cut_file;
@@ -44,6 +47,8 @@ struct Options {
     MaterialChange materials;  ///< `is_diffuse` is that of `view`
     IlluminationOptions illumination;
     RelitOptions relit;
+    bool with_bounce = true;  ///< if the file has one
+    BounceOptions bounce;
 
     // render
     int frames = 1;

@@ -15,6 +15,7 @@
 #include <render/stopwatch.hpp>
 
 #include "mesh.hpp"
+#include "patches.hpp"
 #include "pilot.hpp"
 #include "relight_file.hpp"
 
@@ -34,6 +35,14 @@ void say(const Mesh& mesh, const Options& options, const CutStatistics& cuts, st
         cuts.rms() * std::sqrt(static_cast<double>(cuts.rays) / (static_cast<double>(cuts.sites) * options.directions)),
         static_cast<double>(bytes) / 1e6, tree_seconds, seconds, static_cast<double>(cuts.rays),
         cuts.ray_seconds > 0.0 ? cuts.seconds / cuts.ray_seconds : 1.0);
+}
+
+void say(const Patches& patches, const CutStatistics& cuts, std::size_t bytes, double seconds) {
+    std::fprintf(stderr,
+                 "bounce: %zu patches, mean size of a cut %.1f, largest %zu; relative L2 error of solid angles %.4f; "
+                 "%.2f MB of the file; %.1f s, %.3g rays\n",
+                 patches.size(), cuts.mean_size(), cuts.largest, cuts.relative_error(),
+                 static_cast<double>(bytes) / 1e6, seconds, static_cast<double>(cuts.rays));
 }
 
 }  // namespace
@@ -67,9 +76,21 @@ void prepare(const Options& options) {
         const auto cuts = visibility_cuts(directions, mesh.sites.sites, rays, options.cuts, statistics,
                                           !options.view.quiet);
         const double seconds = watch.lap();
-        const std::vector<char> file = relight_file(preparation, directions, cuts);
+        Patches patches;
+        CutStatistics bounce_statistics;
+        std::vector<std::byte> of_bounce;
+        if (options.bounce_points > 0) {
+            patches = spread_patches(mesh.scene, options.bounce_points, options.cuts.sides, options.view.seed);
+            of_bounce = bounce_cuts(patches, mesh.scene, mesh.sites.sites, rays, options.bounce_deviation,
+                                    options.cuts.sides, bounce_statistics, !options.view.quiet);
+        }
+        const double bounce_seconds = watch.lap();
+        const StoredBounce bounce{patches, of_bounce};
+        const std::vector<char> file = relight_file(preparation, directions, cuts, patches.empty() ? nullptr : &bounce);
         render::write_file(options.view.output, file);
-        if (!options.view.quiet) say(mesh, options, statistics, file.size(), tree_seconds, seconds);
+        if (options.view.quiet) return;
+        say(mesh, options, statistics, file.size(), tree_seconds, seconds);
+        if (!patches.empty()) say(patches, bounce_statistics, of_bounce.size(), bounce_seconds);
     });
 }
 

@@ -3,11 +3,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include <glm/vec3.hpp>
-#include <lightcuts/piecewise/piecewise_constant.hpp>
 
+#include "corner_cuts.hpp"
 #include "illumination.hpp"
 #include "relight_file.hpp"
 #include "seen_points.hpp"
@@ -46,7 +45,7 @@ public:
     RelitStatistics shade(const Illumination& light, const RelitOptions& options, std::span<glm::vec3> radiance) const;
 
     /// Of the cuts in use.
-    double mean_cut_size() const;
+    double mean_cut_size() const { return cuts_.mean_size(); }
     std::size_t cut_count() const { return cuts_.size(); }
 
 private:
@@ -59,10 +58,7 @@ private:
     const Sites& sites_;
     const SeenPoints& seen_;
     Sides sides_;
-    std::vector<std::uint32_t> order_;   ///< of points: by triangle
-    std::vector<std::size_t> begins_;    ///< in `order_`, of each triangle's points; and the end
-    std::vector<std::uint32_t> cut_of_;  ///< by site, in `cuts_`
-    std::vector<lightcuts::PiecewiseConstant<float>> cuts_;
+    CornerCuts cuts_;
 };
 
 }  // namespace relight

@@ -63,6 +63,7 @@ Json report_of(const Options& options, const PreparedScene& prepared) {
     json["directions"] = prepared.file.directions().size();
     json["triangles"] = prepared.mesh.scene.triangles.size();
     json["sites"] = prepared.mesh.sites.sites.size();
+    json["patches"] = options.with_bounce ? prepared.file.patches().size() : 0;
     json["file_bytes"] = prepared.file.bytes();
     return json;
 }
@@ -79,6 +80,7 @@ Json report_of(const FrameFigures& figures, double degrees, bool is_exhaustive) 
         json["glossy_points"] = figures.relit.glossy;
         json["directions_per_glossy_point"] = figures.directions_per_glossy_point();
         json["points_of_a_back"] = figures.relit.backs;
+        if (figures.bounce_cut > 0) json["bounce_cut"] = figures.bounce_cut;
     }
     json["seconds_shade"] = figures.seconds_shade;
     return json;

@@ -29,6 +29,11 @@ struct Sites {
 /// pre: nothing moves.
 Sites sites_of(const render::Scene& scene);
 
+/// How much the corners of its triangle weigh at `point`.
+inline glm::vec3 corner_weights(const render::SurfacePoint& point) {
+    return {1.0f - point.u - point.v, point.u, point.v};
+}
+
 /// True if `point` shows the side from which the corners of its triangle run clockwise.
 bool shows_back(const Sites& sites, const render::SurfacePoint& point);
 

@@ -8,7 +8,9 @@
 #include <lightcuts/piecewise/compact.hpp>
 #include <render/rays/ray_scene.hpp>
 
+#include "cut_statistics.hpp"
 #include "directions.hpp"
+#include "patches.hpp"
 #include "site.hpp"
 #include "site_sky.hpp"
 
@@ -20,24 +22,20 @@ struct CutOptions {
     Sides sides = Sides::both;
 };
 
-/// What cuts cost, and how far off they are.
-struct CutStatistics {
-    std::size_t sites = 0;
-    std::size_t pieces = 0;  ///< of all cuts
-    std::size_t largest = 0;
-    std::uint64_t rays = 0;
-    double squared_error = 0.0;  ///< of stored visibility, summed over all rays
-    double seconds = 0.0;        ///< of all threads together
-    double ray_seconds = 0.0;    ///< of these, in the ray tracer
-
-    double mean_size() const;
-    double rms() const;
-};
-
 /// The bytes of a file of one visibility cut a site, in their order. All threads of the calling arena work; the bytes
 /// do not depend on how many there are. `shown`: progress on a terminal. cost: a ray a site and direction.
 std::vector<std::byte> visibility_cuts(const Directions& directions, std::span<const Site> sites,
                                        const render::RayScene& rays, const CutOptions& options,
                                        CutStatistics& statistics, bool shown = false);
+
+/// The same of patches: solid angles times visibility, `deviation` in steradians, each in 16 bits as
+/// `stored_solid_angle`. cost: a ray a site and patch that faces it.
+std::vector<std::byte> bounce_cuts(const Patches& patches, const render::Scene& scene, std::span<const Site> sites,
+                                   const render::RayScene& rays, double deviation, Sides sides,
+                                   CutStatistics& statistics, bool shown = false);
+
+/// Solid angles of one cut differ by orders of magnitude: their roots are stored, and squared when they are read.
+float stored_solid_angle(float solid_angle);
+float read_solid_angle(float stored);
 
 }  // namespace relight

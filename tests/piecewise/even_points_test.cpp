@@ -184,17 +184,19 @@ TEST(EvenPoints, PatchesHaveTheirShare) {
 // Half of the neighbors are missing there: without a push of the border points would crowd on it.
 TEST(EvenPoints, BordersAreNoDenser) {
     for (const int side : {1, 40}) {
-        double inside = 0.0;
+        double inside = 0.0, upon = 0.0;
         const std::size_t count = 1000;
         const double width = 0.06;  // some two rows
         for (std::uint64_t seed = 0; seed < 10; ++seed) {
             for (const SurfaceSample& p : points_on(square(side), count, seed).points) {
                 const glm::vec3 from = glm::abs(p.position - glm::vec3(0.5f));
                 inside += static_cast<double>(std::max(from.x, from.y)) > 0.5 - width ? 1.0 : 0.0;
+                upon += static_cast<double>(std::max(from.x, from.y)) > 0.5 - 1e-5 ? 1.0 : 0.0;
             }
         }
         const double expected = 10.0 * static_cast<double>(count) * (1.0 - std::pow(1.0 - 2.0 * width, 2));
         EXPECT_NEAR(inside / expected, 1.0, 0.06) << side;
+        EXPECT_LT(upon / expected, 0.02) << side;
     }
 }
 

@@ -76,6 +76,30 @@ TEST_F(RelightProgram, ReportsItsErrorAgainstAReference) {
     EXPECT_LT(report.at("relative_rmse"), 0.15);
 }
 
+TEST_F(RelightProgram, BounceIsAddedIfItWasPrepared) {
+    const std::string prepare = "prepare block.obj --directions 256 --edge 1 --quiet ";
+    ASSERT_EQ(run(prepare + "-o without.relight").status, 0);
+    ASSERT_EQ(run(prepare + "-o off.relight --bounce off").status, 0);
+    EXPECT_EQ(folder.read("without.relight"), folder.read("off.relight"));
+    const auto prepared = run("prepare block.obj --directions 256 --edge 1 -o with.relight --bounce 300");
+    ASSERT_EQ(prepared.status, 0) << prepared.err;
+    EXPECT_NE(prepared.err.find("bounce: 600 patches"), std::string::npos) << prepared.err;
+    const auto picture = [&](const std::string& arguments) {
+        const auto result = run("render " + arguments + " --scene block.obj --env sky.exr -o p.exr --quiet" + view);
+        EXPECT_EQ(result.status, 0) << result.err;
+        return render::read_exr(folder / "p.exr").pixels;
+    };
+    const auto direct = picture("without.relight"), all = picture("with.relight");
+    EXPECT_EQ(picture("with.relight --bounce off"), direct);
+    float more = 0.0f;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        EXPECT_GE(all[i].x, direct[i].x);
+        more = std::max(more, all[i].x - direct[i].x);
+    }
+    EXPECT_GT(more, 0.01f);
+    EXPECT_EQ(nlohmann::json::parse(folder.read("p.json")).at("patches"), 0);
+}
+
 TEST_F(RelightProgram, RefusesBadInput) {
     ASSERT_EQ(run("prepare block.obj -o b.relight --directions 64 --quiet").status, 0);
     const std::string render = "render b.relight --scene block.obj --env sky.exr" + view;
@@ -108,6 +132,9 @@ TEST_F(RelightProgram, RefusesBadCommandLines) {
     refuse("prepare block.obj -o b.relight --directions many", 2, "--directions many");
     refuse("prepare block.obj -o b.relight --sides back", 2, "front or both");
     refuse("prepare block.obj -o b.relight --deviation -1", 2, "--deviation");
+    refuse("prepare block.obj -o b.relight --bounce some", 2, "--bounce some");
+    refuse("prepare block.obj -o b.relight --bounce-deviation x", 2, "--bounce-deviation");
+    refuse("render b.relight --scene block.obj --env sky.exr --bounce 5", 2, "on or off");
     refuse("render b.relight --scene block.obj --env sky.exr --size 0x3", 2, "--size");
     refuse("render b.relight --scene block.obj --env sky.exr --eye 1,2,3", 2, "--target");
     refuse("render b.relight --scene block.obj", 2, "--env");

@@ -8,9 +8,11 @@
 
 #include <glm/geometric.hpp>
 #include <lightcuts/piecewise/even_directions.hpp>
+#include <relight/bounce.hpp>
 #include <relight/exhaustive.hpp>
 #include <relight/illumination.hpp>
 #include <relight/mesh.hpp>
+#include <relight/patches.hpp>
 #include <relight/relight_file.hpp>
 #include <relight/relit_shader.hpp>
 #include <relight/seen_points.hpp>
@@ -40,6 +42,13 @@ inline const std::string box_alone =
     "v -1 2 -1\nv 1 2 -1\nv 1 2 1\nv -1 2 1\n"
     "usemtl shiny\nf 1 2 3 4\nf 8 7 6 5\nusemtl gray\nf 5 6 2 1\nf 6 7 3 2\nf 7 8 4 3\nf 8 5 1 4\n";
 
+/// A closed room about `small_world`'s camera, of one material, seen from inside.
+inline const std::string closed_room =
+    "mtllib m.mtl\n"
+    "v -8 -1 -8\nv 8 -1 -8\nv 8 -1 8\nv -8 -1 8\n"
+    "v -8 9 -8\nv 8 9 -8\nv 8 9 8\nv -8 9 8\n"
+    "usemtl gray\nf 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+
 /// A map with a bright spot and a gradient, different in all channels.
 inline render::Picture small_map(int width = 32) {
     render::Picture map(width, width / 2);
@@ -55,11 +64,17 @@ inline render::Picture small_map(int width = 32) {
     return map;
 }
 
+/// How the bounce of a small scene is prepared.
+struct SmallBounce {
+    std::size_t points = 0;  ///< 0: without
+    double deviation = 0.002;
+};
+
 /// A small scene, prepared and looked at.
 class SmallWorld {
 public:
     SmallWorld(const std::string& obj, const relight::CutOptions& cuts, std::size_t directions, double edge = 0.0,
-               int side = 32) {
+               int side = 32, const SmallBounce& bounce = {}) {
         folder.write("m.mtl", two_materials);
         folder.write("scene.obj", obj);
         render::Scene scene = relight::load_still_scene(folder / "scene.obj");
@@ -69,7 +84,15 @@ public:
         rays = std::make_unique<render::RayScene>(mesh.scene);
         const auto tree = relight::geometric_directions(lightcuts::even_directions(directions));
         const auto bytes = relight::visibility_cuts(tree, mesh.sites.sites, *rays, cuts, statistics);
-        content = relight::relight_file(preparation, tree, bytes);
+        relight::Patches patches;
+        std::vector<std::byte> of_bounce;
+        if (bounce.points > 0) {
+            patches = relight::spread_patches(mesh.scene, bounce.points, cuts.sides, 1);
+            of_bounce = relight::bounce_cuts(patches, mesh.scene, mesh.sites.sites, *rays, bounce.deviation, cuts.sides,
+                                             bounce_statistics);
+        }
+        const relight::StoredBounce stored{patches, of_bounce};
+        content = relight::relight_file(preparation, tree, bytes, bounce.points > 0 ? &stored : nullptr);
         render::write_file(folder / "scene.relight", content);
         file = std::make_unique<relight::RelightFile>(folder / "scene.relight");
         render::Camera camera;
@@ -105,9 +128,34 @@ public:
         return radiance;
     }
 
+    const relight::Patches& patches() const { return file->patches(); }
+
+    /// What the points reflect of light that surfaces reflected once, by cuts and by exhaustive sums.
+    std::vector<glm::vec3> bounce(std::span<const glm::vec3> power, const relight::IlluminationOptions& light = {},
+                                  const relight::BounceOptions& options = {}) const {
+        relight::Illumination illumination(directions());
+        illumination.set(power, light);
+        std::vector<glm::vec3> radiance(seen.points.size(), glm::vec3(0.0f));
+        relight::Bounce(*file, mesh.scene, mesh.sites, seen, render::Shade::full)
+            .add(illumination, options, {}, radiance);
+        return radiance;
+    }
+
+    std::vector<glm::vec3> exhaustive_bounce(std::span<const glm::vec3> power, relight::Truth truth) const {
+        const relight::SeenPoints points = relight::points_of(patches(), mesh.scene, render::Shade::full);
+        std::vector<glm::vec3> light(points.points.size());
+        const relight::Sides sides = file->preparation().sides;
+        relight::shade_exhaustively(points, mesh.sites, directions(), power, *rays, sides, truth, false, light);
+        std::vector<glm::vec3> radiance(seen.points.size(), glm::vec3(0.0f));
+        relight::add_bounce_exhaustively(seen, mesh.sites, patches(), mesh.scene, light, *rays, sides, truth, false,
+                                         radiance);
+        return radiance;
+    }
+
     TemporaryFolder folder;
     relight::Mesh mesh;
     relight::CutStatistics statistics;
+    relight::CutStatistics bounce_statistics;
     std::unique_ptr<render::RayScene> rays;
     std::vector<char> content;
     std::unique_ptr<relight::RelightFile> file;

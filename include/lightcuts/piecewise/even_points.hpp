@@ -179,30 +179,32 @@ inline std::vector<SurfacePlace> stratified_places(const TriangleSurface& surfac
     return places;
 }
 
-/// Places along the border of a surface, at equal distances of `spacing` or as few as `most`.
+/// Places beside the borders of a surface, `outside` of them, at equal distances of `spacing` or as few as `most`.
 struct BorderPost {
     glm::dvec3 place;
     std::uint32_t triangle;
 };
 inline std::vector<BorderPost> border_posts(const TriangleSurface& surface, std::span<const std::uint32_t> order,
-                                            double spacing, std::size_t most) {
+                                            double spacing, double outside, std::size_t most) {
     const auto for_each_border = [&](auto&& f) {
         for (const std::uint32_t t : order) {
             for (std::size_t k = 0; k < 3; ++k) {
                 if (surface[t].across[k] == SurfaceTriangle::none) {
-                    f(t, surface[t].edge_begin(k), surface[t].edge_end(k));
+                    f(t, surface[t].edge_begin(k), surface[t].edge_end(k), surface[t].outwards(k));
                 }
             }
         }
     };
     double length = 0.0;
-    for_each_border([&](std::uint32_t, const glm::dvec3& a, const glm::dvec3& b) { length += glm::distance(a, b); });
+    for_each_border([&](std::uint32_t, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3&) {
+        length += glm::distance(a, b);
+    });
     const double step = (std::max)(spacing, length / static_cast<double>(most));
     std::vector<BorderPost> posts;
     double next = 0.5 * step;  // from the edge's begin
-    for_each_border([&](std::uint32_t t, const glm::dvec3& a, const glm::dvec3& b) {
+    for_each_border([&](std::uint32_t t, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& outwards) {
         const double own = glm::distance(a, b);
-        for (; next < own; next += step) posts.push_back({a + (next / own) * (b - a), t});
+        for (; next < own; next += step) posts.push_back({a + (next / own) * (b - a) + outside * outwards, t});
         next -= own;
     });
     return posts;
@@ -212,10 +214,11 @@ inline std::vector<BorderPost> border_posts(const TriangleSurface& surface, std:
 inline void spread(const TriangleSurface& surface, std::span<const std::uint32_t> order, double spacing, int steps,
                    std::vector<SurfacePlace>& places) {
     // A border pushes as the rest of the surface would if it went on there, so that the outermost places lie half of a
-    // row inside of it and stand for as much area as others.
-    constexpr double posts_a_spacing = 2.0, push_of_post = 0.3;
+    // row inside of it and stand for as much area as others. Posts on the border itself would hold what came upon it.
+    constexpr double posts_a_spacing = 2.0, push_of_post = 0.6, outside = 0.43;
     const double reach = 2.0 * spacing;
-    const std::vector<BorderPost> posts = border_posts(surface, order, spacing / posts_a_spacing, 4 * places.size());
+    const std::vector<BorderPost> posts = border_posts(surface, order, spacing / posts_a_spacing, outside * spacing,
+                                                       4 * places.size());
     PartGrid grid(reach), post_grid(reach);
     post_grid.fill(
         posts.size(), [&](std::size_t i) { return posts[i].place; },
