@@ -112,6 +112,9 @@ Patches spread_patches(const render::Scene& scene, std::size_t points, Sides sid
 }
 
 SeenPoints points_of(const Patches& patches, const render::Scene& scene, render::Shade shade) {
+    for (std::size_t i = 0; i < patches.size(); ++i) {
+        if (patches[i].triangle >= scene.triangles.size()) refuse("is of a mesh with more triangles");
+    }
     SeenPoints seen;
     seen.points.resize(patches.size());
     tbb::parallel_for(std::size_t{0}, patches.size(), [&](std::size_t i) {

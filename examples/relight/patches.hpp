@@ -48,7 +48,7 @@ struct Patches {
 Patches spread_patches(const render::Scene& scene, std::size_t points, Sides sides, std::uint64_t seed);
 
 /// The patches as points to be shaded, by item, with the diffuse parts of their materials alone; weights are opacities.
-/// pre: they are of `scene`.
+/// throws: invalid_input if one lies on a triangle that there is not.
 SeenPoints points_of(const Patches& patches, const render::Scene& scene, render::Shade shade);
 
 /// By item, where rays to a patch end: off the surface, on the side that it reflects on.

@@ -131,7 +131,7 @@ TEST(Bounce, CutsAreNearTheExhaustiveSum) {
 TEST(Bounce, FineMeshesAreNearVisibilityFromPixels) {
     const SmallWorld world(block_over_floor, {.deviation = 0.5}, 256, 0.2, 16, {800});
     const auto power = world.power(small_map());
-    EXPECT_LT(relative_difference(world.bounce(power), world.exhaustive_bounce(power, relight::Truth::pixels)), 0.12);
+    EXPECT_LT(relative_difference(world.bounce(power), world.exhaustive_bounce(power, relight::Truth::pixels)), 0.04);
 }
 
 TEST(Bounce, ThreadsChangeNoBit) {
