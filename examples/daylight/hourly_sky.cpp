@@ -105,9 +105,14 @@ void SkyBlock::fill(std::span<const LitHour> hours) {
             patch_light_->spread(hour.patches, luminances_);
             ground = static_cast<double>(hour.patches[0]) * solid_angle;
         }
-        double level = 0.0;
-        for (std::size_t i = 0; i < compass_.size(); ++i) level += luminances_[i] * std::max(0.0, compass_[i].z);
-        const double scale = level > 0.0 ? hour.diffuse_illuminance / level : 0.0;
+        // A sky's shape is given by its illuminance. Patches have the light that they have: scaling all of them would
+        // let a bright one by the horizon, where few directions say how it lights the ground, change the whole sky.
+        double scale = 1.0;
+        if (hour.patches.empty()) {
+            double level = 0.0;
+            for (std::size_t i = 0; i < compass_.size(); ++i) level += luminances_[i] * std::max(0.0, compass_[i].z);
+            scale = level > 0.0 ? hour.diffuse_illuminance / level : 0.0;
+        }
         for (std::size_t i = 0; i < compass_.size(); ++i) {
             light_[i][h] = static_cast<float>(compass_[i].z > 0.0 ? luminances_[i] * scale : ground);
         }

@@ -159,6 +159,11 @@ Weather weather_of(const Options& options, const std::optional<SkyMatrix>& skies
                                            " columns, but " + options.weather.string() + " has " +
                                            std::to_string(weather.hours.size()) + " hours; make it of that weather");
         }
+        if (skies && skies->has_suns) {
+            throw lightcuts::invalid_input(options.skies.string() +
+                                           ": has suns, and so has --weather; make it with gendaymtx -s, or leave "
+                                           "--weather out");
+        }
         return weather;
     }
     if (skies->hours != 8760 && skies->hours != 8784) {

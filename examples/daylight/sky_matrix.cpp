@@ -81,6 +81,7 @@ private:
             const std::string_view key = render::trim(line.substr(0, equals));
             const std::string_view value = render::trim(line.substr(std::min(equals + 1, line.size())));
             if (line.starts_with('\t')) continue;  // what an earlier program said of its own
+            if (line.starts_with("gendaymtx")) look_at_command(line);
             if (key == "NROWS") {
                 const std::size_t rows = whole(key, value);
                 const std::optional<int> division = ReinhartPatches::division_of(rows);
@@ -110,6 +111,18 @@ private:
         }
         if (!is_over) refuse("its header has no end, an empty line; the file is cut short");
         if (!has_rows || !has_hours) refuse(std::string("its header has no ") + (has_rows ? "NCOLS" : "NROWS"));
+    }
+
+    /// What the matrix was made by: options that make its numbers something else, and whether it has suns.
+    void look_at_command(std::string_view line) {
+        matrix_.has_suns = true;
+        while (!line.empty()) {
+            const std::string_view word = line.substr(0, std::min(line.find_first_of(blanks), line.size()));
+            line.remove_prefix(std::min(line.size(), word.size() + 1));
+            if (word == "-O1") fail("gendaymtx -O1 makes solar radiance, of which there is no luminance; leave it out");
+            if (word == "-5") fail("gendaymtx -5 makes suns of their own size, not of a patch's; leave it out");
+            if (word == "-s") matrix_.has_suns = false;
+        }
     }
 
     std::size_t whole(std::string_view key, std::string_view text) const {

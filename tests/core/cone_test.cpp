@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <lightcuts/core/vector.hpp>
+
 #include "configurations.hpp"
 
 namespace {
@@ -151,6 +153,21 @@ TEST(Cone, MergeIsMinimal) {
         // Float axes and sin^2 cost some 1e-7 rad; towards pi, where the sine is flat, more.
         const double allowed = 3e-7 / std::max(std::cos(0.5 * beta), 1e-4);
         ASSERT_LE(half_angle(merge(a, b)), beta + allowed) << i << ' ' << half_angle(a) << ' ' << half_angle(b);
+    }
+}
+
+TEST(Cone, MergeIsANumberForAxesOfAnyLengthAndAnyWidth) {
+    // Axes are unit up to the rounding of their coordinates: one direction may be stored in several lengths.
+    Draw draw(9);
+    const float widths[] = {0.0f, 1e-45f, 1e-42f, 1e-38f, 1e-30f, 1e-25f, 1e-22f, 1e-21f, 1e-15f, 0.5f, 1.0f};
+    for (int i = 0; i < 20000; ++i) {
+        const Cone a{glm::vec3(draw.direction()), widths[draw.below(11)]};
+        const Cone b{a.axis * (draw.below(2) == 0 ? 0.99999994f : -1.0000001f), widths[draw.below(11)]};
+        for (const Cone& merged : {merge(a, b), merge(b, a)}) {
+            ASSERT_TRUE(is_unit(merged.axis)) << i;
+            ASSERT_GE(merged.sin2_half, std::max(a.sin2_half, b.sin2_half)) << i;
+            ASSERT_TRUE(contains(merged, glm::dvec3(a.axis)) && contains(merged, glm::dvec3(b.axis))) << i;
+        }
     }
 }
 

@@ -178,6 +178,8 @@ TEST_F(Program, refuses_what_it_cannot_use_in_one_line_and_writes_nothing) {
     const auto one = [](std::size_t, std::size_t, int) { return 1.0; };
     folder.write("day.smx", sky_matrix_text(146, 24, "ascii", one));
     folder.write("bad.smx", sky_matrix_text(145, 24, "ascii", one));
+    std::string sunny = sky_matrix_text(146, 168, "ascii", one);
+    folder.write("sunny.smx", sunny.erase(sunny.find(" -s"), 3));
     const std::set<std::string> before = files();
     const Refused all[] = {
         {"", 2, "give what to do"},
@@ -206,6 +208,7 @@ TEST_F(Program, refuses_what_it_cannot_use_in_one_line_and_writes_nothing) {
         {"year two.cuts --weather week.epw -o a.csv --sky cie:17", 2, "perez, or cie:1 to cie:16"},
         {"year two.cuts --weather week.epw -o a.csv --sky cie", 2, "perez, or cie:1 to cie:16"},
         {"year two.cuts --skies day.smx -o a.csv --weather week.epw --sky cie:1", 2, "--sky is of no use with --skies"},
+        {"year two.cuts --skies sunny.smx -o a.csv --weather week.epw", 1, "has suns, and so has --weather"},
         {"year two.cuts --skies day.smx -o a.csv --ground 0.1", 2, "--ground is of no use with --skies"},
         {"year two.cuts --skies day.smx -o a.csv --scene shed.obj", 2, "--scene needs --weather"},
         {"year two.cuts --skies day.smx --picture a.png --figure sun", 2, "--figure sun needs --weather"},

@@ -12,7 +12,7 @@
 inline std::string sky_matrix_text(std::size_t patches, std::size_t hours, const std::string& format,
                                    const std::function<double(std::size_t, std::size_t, int)>& radiance,
                                    bool high_byte_first = false) {
-    std::string text = "#?RADIANCE\ngendaymtx -m 1 madeup.wea\nLATLONG= 48.20000000 16.37000000\nNROWS=" +
+    std::string text = "#?RADIANCE\ngendaymtx -s -m 1 madeup.wea\nLATLONG= 48.20000000 16.37000000\nNROWS=" +
                        std::to_string(patches) + "\nNCOLS=" + std::to_string(hours) + "\nNCOMP=3\n";
     if (format != "ascii") text += std::string("BigEndian=") + (high_byte_first ? "1" : "0") + "\n";
     text += "FORMAT=" + format + (format == "ascii" ? "" : "   ") + "\n\n";

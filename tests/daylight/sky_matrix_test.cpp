@@ -95,6 +95,8 @@ TEST(SkyMatrix, with_a_bad_header_is_refused) {
     EXPECT_THAT(changed("NCOMP=3", "NCOMP=1"), HasSubstr(":6: NCOMP is not 3"));
     EXPECT_THAT(changed("FORMAT=ascii", "FORMAT=32-bit_rle_rgbe"), HasSubstr(":7: FORMAT is '32-bit_rle_rgbe'"));
     EXPECT_THAT(changed("NCOMP=3", "BigEndian=2"), HasSubstr(":6: BigEndian is neither 0 nor 1"));
+    EXPECT_THAT(changed("gendaymtx -s", "gendaymtx -s -O1"), HasSubstr(":2: gendaymtx -O1 makes solar radiance"));
+    EXPECT_THAT(changed("gendaymtx -s", "gendaymtx -5 0.533"), HasSubstr(":2: gendaymtx -5 makes suns"));
     EXPECT_THAT(changed("NCOMP=3", "EXPOSURE=2"), HasSubstr(":6: EXPOSURE says that the numbers are scaled"));
 }
 
@@ -158,7 +160,28 @@ TEST(SkyMatrix, of_an_even_sky_lights_planes_as_an_even_sky_does) {
         for (const glm::vec3& n : normals) {
             const double above = 0.5 * (1.0 + static_cast<double>(n.z));
             const double expected = pi * (50.0 * above + 20.0 * (1.0 - above));
-            EXPECT_NEAR(illuminance(directions, block, n), expected, (n.z == 1.0f ? 1e-5 : 2e-3) * expected) << n.z;
+            EXPECT_NEAR(illuminance(directions, block, n), expected, 2e-3 * expected) << n.z;
+        }
+    }
+}
+
+TEST(SkyMatrix, gives_each_patch_the_light_of_its_solid_angle_wherever_it_is) {
+    // Each lit alone, those by the horizon too, in which few directions lie; fewer directions than patches.
+    for (const std::size_t count : {1024u, 8192u}) {
+        const DirectionTree directions = make_direction_tree(count);
+        const Setting setting{.up = UpAxis::z};
+        const ReinhartPatches patches(2);
+        for (std::size_t lit = 1; lit < patches.size(); lit += 7) {
+            const auto skies = sky_matrix(sky_matrix_text(patches.size(), 8760, "float",
+                                                          [&](std::size_t p, std::size_t h, int) {
+                                                              return p == lit && h == 0 ? 1000.0 / 179.0 : 0.0;
+                                                          }),
+                                          "x.smx");
+            SkyBlock block(directions, setting);
+            block.fill(lit_hours(skies, calendar_year(8760), directions, setting));
+            double sum = 0.0;
+            for (const HourValues& light : block.light()) sum += static_cast<double>(light[0]);
+            EXPECT_NEAR(sum, 1000.0 * patches.solid_angle(lit), 1e-4 * sum) << lit;
         }
     }
 }

@@ -59,6 +59,22 @@ struct BuildCluster {
     std::uint32_t id;     ///< its smallest item
 };
 
+/// Sine and cosine of an angle in [0, pi/2]: half of a cone's angle, or half of the angle between two axes. Sums of
+/// them by the addition theorems replace all inverse trigonometric functions.
+struct HalfAngle {
+    double sin;
+    double cos;
+};
+
+constexpr HalfAngle operator+(const HalfAngle& a, const HalfAngle& b) {
+    return {a.sin * b.cos + a.cos * b.sin, a.cos * b.cos - a.sin * b.sin};
+}
+
+inline HalfAngle half_of(const Cone& c) {
+    const double s2 = static_cast<double>(c.sin2_half);
+    return {std::sqrt(s2), std::sqrt(1.0 - s2)};
+}
+
 template <>
 struct BuildCluster<true> : BuildCluster<false> {
     Cone cone;
