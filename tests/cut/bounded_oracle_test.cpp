@@ -42,6 +42,24 @@ struct BoundedCurtain : Curtain {
     }
 };
 
+/// What is beyond the plane is hidden, and known to be.
+struct HidingCurtain : Curtain {
+    mutable std::size_t asked = 0;
+    mutable std::size_t hidden = 0;
+
+    template <class R>
+    bool hides(const R&, const Box& positions) const {
+        ++asked;
+        const bool all = positions.lo.x > wall;
+        hidden += all ? 1u : 0u;
+        return all;
+    }
+    template <class R>
+    bool hides(const R& receiver, const DirectionBox& directions) const {
+        return hides(receiver, directions.box);
+    }
+};
+
 /// Knows of positions only.
 struct HalfBoundedCurtain : Curtain {
     template <class R>
@@ -55,6 +73,9 @@ static_assert(BoundedOracle<BoundedCurtain, R, OmniLight<>> && BoundedOracle<Bou
 static_assert(BoundedOracle<HalfBoundedCurtain, R, OmniLight<>> &&
               !BoundedOracle<HalfBoundedCurtain, R, DistantLight<>>);
 static_assert(!BoundedOracle<Curtain, R, OmniLight<>> && !BoundedOracle<AlwaysVisible, R, OmniLight<>>);
+
+static_assert(HidingOracle<HidingCurtain, R, OmniLight<>> && HidingOracle<HidingCurtain, R, DistantLight<>>);
+static_assert(!HidingOracle<BoundedCurtain, R, OmniLight<>> && !HidingOracle<AlwaysVisible, R, OmniLight<>>);
 
 template <class Lights, class Oracle>
 void expect_sound(const Lights& lights, const R& receiver, const Oracle& oracle) {
@@ -84,6 +105,9 @@ TEST(BoundedOracle, KeepsTheErrorWithinItsBound) {
             half.share = share;
             expect_sound(LightForest(near, far), receiver, half);
         }
+        expect_sound(near, receiver, HidingCurtain{});
+        expect_sound(far, receiver, HidingCurtain{});
+        expect_sound(LightForest(near, far), receiver, HidingCurtain{});
     }
 }
 
@@ -103,6 +127,28 @@ TEST(BoundedOracle, SparesWhatIsHidden) {
     }
     EXPECT_LT(static_cast<double>(bounded), 0.8 * static_cast<double>(plain));
     EXPECT_LT(asked, 2 * splits) << "asked only of clusters that are about to be split";
+}
+
+TEST(HidingOracle, SparesWhatIsHiddenAndIsAskedOnlyWhereNothingWasSeen) {
+    Room<V> room(12);
+    const auto omni = room.omni(3000);
+    const LightTree tree(omni);
+    const LightcutOptions fine{.error_ratio = 0.005f, .max_cut = 0, .exhaustive_below = 0};
+    std::size_t plain = 0, hiding = 0, asked = 0, hidden = 0, bounded_asked = 0;
+    for (const auto& receiver : room.diffuse_receivers(30)) {
+        plain += shade(tree, receiver, Curtain{}, fine).queries;
+        const HidingCurtain oracle;
+        hiding += shade(tree, receiver, oracle, fine).queries;
+        asked += oracle.asked;
+        hidden += oracle.hidden;
+        const BoundedCurtain bounded;
+        (void)shade(tree, receiver, bounded, fine);
+        bounded_asked += bounded.asked;
+    }
+    EXPECT_LT(static_cast<double>(hiding), 0.8 * static_cast<double>(plain));
+    EXPECT_GT(hidden, 0u);
+    // Clusters with a visible representative are not asked about.
+    EXPECT_LT(static_cast<double>(asked), 0.5 * static_cast<double>(bounded_asked));
 }
 
 }  // namespace

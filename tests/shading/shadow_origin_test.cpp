@@ -114,14 +114,15 @@ struct OwnPlane {
     bool operator()(const R& receiver, const L& light) const {
         return sees(receiver, position_or_direction(light));
     }
+protected:
     template <class R>
-    float upper_bound(const R& receiver, const Box& box) const {
+    static bool is_hidden(const R& receiver, const Box& box) {
         for (int i = 0; i < 8; ++i) {
             const V corner((i & 1) != 0 ? box.lo.x : box.hi.x, (i & 2) != 0 ? box.lo.y : box.hi.y,
                            (i & 4) != 0 ? box.lo.z : box.hi.z);
-            if (sees(receiver, corner)) return 1.0f;
+            if (sees(receiver, corner)) return false;
         }
-        return 0.0f;
+        return true;
     }
 
 private:
@@ -133,18 +134,36 @@ private:
     }
 };
 
+struct BoundedOwnPlane : OwnPlane {
+    template <class R>
+    float upper_bound(const R& receiver, const Box& box) const {
+        return is_hidden(receiver, box) ? 0.0f : 1.0f;
+    }
+};
+struct HidingOwnPlane : OwnPlane {
+    template <class R>
+    bool hides(const R& receiver, const Box& box) const {
+        return is_hidden(receiver, box);
+    }
+};
+
 TEST(Leaf, BoundsOfOraclesAreAskedFromBothSides) {
     LeafRoom scene(22);
     const auto omni = scene.room.omni(400);
     const LightTree tree(omni);
-    static_assert(BoundedOracle<OwnPlane, Receiver<Leaf>, OmniLight<>>);
+    static_assert(BoundedOracle<BoundedOwnPlane, Receiver<Leaf>, OmniLight<>>);
+    static_assert(HidingOracle<HidingOwnPlane, Receiver<Leaf>, OmniLight<>>);
     for (const auto& leaf : scene.leaves) {
         const V exact = exhaustive(tree, leaf, AlwaysVisible{}).radiance;
-        const CutResult<V> cut = shade(tree, leaf, OwnPlane{}, {.max_cut = 0, .exhaustive_below = 0});
-        for (int k = 0; k < 3; ++k) {
-            EXPECT_LE(std::fabs(cut.radiance[k] - exact[k]), cut.error_bound[k] + 1e-5f * exact[k]);
-            EXPECT_NEAR(cut.radiance[k], exact[k], 0.1f * exact[k]);
-        }
+        const auto expect_right = [&](const auto& oracle) {
+            const CutResult<V> cut = shade(tree, leaf, oracle, {.max_cut = 0, .exhaustive_below = 0});
+            for (int k = 0; k < 3; ++k) {
+                EXPECT_LE(std::fabs(cut.radiance[k] - exact[k]), cut.error_bound[k] + 1e-5f * exact[k]);
+                EXPECT_NEAR(cut.radiance[k], exact[k], 0.1f * exact[k]);
+            }
+        };
+        expect_right(BoundedOwnPlane{});
+        expect_right(HidingOwnPlane{});
     }
 }
 

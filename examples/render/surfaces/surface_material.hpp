@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <variant>
 
 #include <lightcuts/material/above_horizon.hpp>
@@ -64,6 +65,12 @@ public:
 
     bool is_behind(const glm::vec3& to_light) const {
         return is_thin_ && glm::dot(glm::dvec3(geometric_normal_), glm::dvec3(to_light)) < 0.0;
+    }
+
+    /// See lightcuts::MaterialWithHorizon.
+    std::optional<glm::vec3> horizon() const {
+        const bool has_one = !is_thin_ && !std::holds_alternative<lightcuts::HenyeyGreenstein<>>(gloss_);
+        return has_one ? std::optional(geometric_normal_) : std::nullopt;
     }
 
 private:

@@ -91,6 +91,26 @@ private:
                 candidates[i]->priority = priority(frontier[candidates[i]->at]);
             }
         }
+        if constexpr (HidingOracle<Oracle, R, typename Tree::light_type>) {
+            for (std::size_t i = 0; i < count; ++i) {
+                Node& n = frontier[candidates[i]->at];
+                // What has a visible light is not hidden.
+                if (!(candidates[i]->priority > threshold) || !is_black(n.transfer)) continue;
+                if (!is_hidden(*clusters[i])) continue;
+                lower_bound(n, black<S>(), *clusters[i]);
+                candidates[i]->priority = priority(n);
+            }
+        }
+    }
+
+    /// True if the oracle proves that no light of a cluster is visible.
+    template <class Cluster>
+    bool is_hidden(const Cluster& cluster) const {
+        const place_box<typename Cluster::light_type> box{cluster.box};
+        if constexpr (R::two_sided) {
+            if (!oracle_.hides(from_behind(receiver_), box)) return false;
+        }
+        return oracle_.hides(receiver_, box);
     }
 
     template <class Cluster>

@@ -95,7 +95,8 @@ inline constexpr bool answers<Oracle, R, LightForest<Ls...>> = (VisibilityOracle
 template <class Oracle, class R, class Forest>
 inline constexpr bool bounds_clusters = false;
 template <class Oracle, class R, Light... Ls>
-inline constexpr bool bounds_clusters<Oracle, R, LightForest<Ls...>> = (BoundedOracle<Oracle, R, Ls> || ...);
+inline constexpr bool bounds_clusters<Oracle, R, LightForest<Ls...>> =
+    ((BoundedOracle<Oracle, R, Ls> || HidingOracle<Oracle, R, Ls>) || ...);
 
 }  // namespace detail
 

@@ -150,6 +150,15 @@ concept BoundedOracle = requires(const O& visible, const R& receiver, const plac
     { visible.upper_bound(receiver, box) } -> std::convertible_to<float>;
 };
 
+/// An oracle that can prove of a whole cluster that nothing of it is visible: `hides(receiver, box)` is true only if no
+/// light in `box` is, not in part; boxes as of a BoundedOracle. Asked before a cluster is split of whose representative
+/// nothing was visible, and so less often than a BoundedOracle: it may take as long as several shadow rays. False costs
+/// nothing but time. See HiddenLights.
+template <class O, class R, class L>
+concept HidingOracle = requires(const O& visible, const R& receiver, const place_box<L>& box) {
+    { visible.hides(receiver, box) } -> std::same_as<bool>;
+};
+
 /// Nothing casts a shadow. Costs nothing: algorithms skip the question.
 struct AlwaysVisible {
     template <class R, class L>

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+#include <optional>
+#include <type_traits>
+#include <utility>
+
+#include <glm/vec3.hpp>
+
+#include "../core/box.hpp"
+#include "../core/cone.hpp"
+#include "../material/material.hpp"
+#include "../shading/receiver.hpp"
+#include "flood.hpp"
+#include "occluder_mesh.hpp"
+#include "oracle.hpp"
+#include "query.hpp"
+
+namespace lightcuts {
+
+/// The user's ray tracer, as proofs ask it: the number in the OccluderMesh of the first triangle that a segment from
+/// `query.from` to `query.to` meets, or that a ray in the direction `query.to` meets if the query is `distant`;
+/// OccluderMesh::no_triangle if it meets none. It may also say that where a triangle of no mesh is met first. A wrong
+/// answer can make a proof fail, never go wrong.
+template <class H>
+concept FirstHit = requires(const H& hit, const VisibilityQuery& query) {
+    { hit(query) } -> std::convertible_to<OccluderMesh::Index>;
+};
+
+/// A material whose `horizon()` is a normal such that it reflects nothing from directions `d` with dot(horizon(), d) <
+/// 0, or nothing if it has none, as what light passes through.
+template <class M>
+concept MaterialWithHorizon = requires(const M& material) {
+    { material.horizon() } -> std::convertible_to<std::optional<glm::vec3>>;
+};
+
+/// Says of boxes of lights that all of them are hidden from a receiver, if `Flood` proves it: what a HidingOracle
+/// answers from. A view of the mesh.
+template <FirstHit H>
+class HiddenLights {
+public:
+    HiddenLights(const OccluderMesh& mesh, H first_hit, const FloodOptions& options = {})
+        : mesh_(mesh), flood_(mesh, options), first_hit_(std::move(first_hit)) {}
+    /// It would refer to what is gone.
+    HiddenLights(const OccluderMesh&&, H, const FloodOptions& = {}) = delete;
+
+    /// True only if no shadow ray from the receivers reaches a light of the box; `lights`: a Box of positions or a
+    /// DirectionBox. Asks for the triangle between the middles of the boxes and, if nothing can be proved from it, for
+    /// the ones behind it.
+    /// threads: as `H`. cost: one to three rays, and Flood's
+    template <class Lights>
+    bool hides(const ReceiverBox& receivers, const Lights& lights) const {
+        if (mesh_.empty()) return false;
+        const Flood::Segment segment = Flood::start_segment(receivers, lights);
+        if (!segment.exists) return false;
+        VisibilityQuery query{glm::vec3(segment.from), 0, glm::vec3(segment.to), 0, 0, segment.distant};
+        for (int tries = 0; tries < 3; ++tries) {
+            const OccluderMesh::Index triangle = first_hit_(query);
+            if (triangle >= mesh_.size()) return false;
+            if (flood_.hides(receivers, lights, triangle)) return true;
+            const std::optional<glm::vec3> behind = flood_.place_behind(segment, triangle);
+            if (!behind) return false;
+            query.from = *behind;
+        }
+        return false;
+    }
+
+    /// The same of a receiver, whose rays start at its shadow_origin: what the `hides` of a HidingOracle returns.
+    template <class M, class Lights>
+    bool hides(const Receiver<M>& receiver, const Lights& lights) const {
+        ReceiverBox box{box_of(receiver.shadow_origin)};
+        if constexpr (MaterialWithHorizon<std::remove_cvref_t<M>>) {
+            box.horizon = receiver.material.horizon();
+        } else if constexpr (CosineLobeMaterial<std::remove_cvref_t<M>>) {
+            const auto lobe = receiver.material.cosine_lobe();
+            const Cone normals = merge(Cone{}, lobe.normal);
+            if (is_single(normals)) box.horizon = normals.axis;
+        }
+        return hides(box, lights);
+    }
+
+private:
+    const OccluderMesh& mesh_;
+    Flood flood_;
+    H first_hit_;
+};
+
+}  // namespace lightcuts

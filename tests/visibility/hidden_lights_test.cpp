@@ -1,0 +1,169 @@
+#include <lightcuts/visibility/hidden_lights.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <glm/vec3.hpp>
+
+#include <lightcuts/cut/lightcut.hpp>
+#include <lightcuts/estimate/exhaustive.hpp>
+#include <lightcuts/light/directional.hpp>
+#include <lightcuts/light/omni.hpp>
+#include <lightcuts/material/lambert.hpp>
+#include <lightcuts/tree/light_tree.hpp>
+#include <lightcuts/visibility/shared_proofs.hpp>
+
+#include "support/random.hpp"
+#include "support/triangle_soup.hpp"
+
+namespace lightcuts::test {
+namespace {
+
+/// Asks all triangles of a soup.
+struct SoupHit {
+    const TriangleSoup& soup;
+
+    OccluderMesh::Index operator()(const VisibilityQuery& query) const {
+        const glm::dvec3 from(query.from), to(query.to);
+        const auto hits = soup.hits(from, query.distant ? 100.0 * to : to - from);
+        return hits.empty() ? OccluderMesh::no_triangle : hits.front();
+    }
+};
+static_assert(FirstHit<SoupHit>);
+static_assert(!FirstHit<int>);
+
+/// Two rooms, one above the other, with furniture in the lower one.
+struct House {
+    TriangleSoup soup;
+    OccluderMesh mesh;
+
+    House() {
+        Random random(1);
+        soup.add_box(random, {-3, -3, 0}, {3, 3, 3}, 3);
+        soup.add_box(random, {-3, -3, 3}, {3, 3, 6}, 3);
+        soup.add_sheet(random, {-1, -1, 1.5}, {2, 0, 0}, {0, 2, 0}, 2, 2);  // a table, seen from below
+        mesh = OccluderMesh(soup.triangles.size(), [&](std::size_t i) { return soup.triangles[i]; });
+    }
+};
+
+struct HouseOracle {
+    const SoupHit& hit;
+    const HiddenLights<SoupHit>& hidden;
+    mutable std::size_t proofs = 0;
+
+    template <class R, Light L>
+    bool operator()(const R& receiver, const L& light) const {
+        const bool distant = DirectionalLight<L>;
+        return hit({receiver.shadow_origin, 0, position_or_direction(light), 0, 0, distant}) ==
+               OccluderMesh::no_triangle;
+    }
+    template <class R, class Lights>
+    bool hides(const R& receiver, const Lights& lights) const {
+        const bool result = hidden.hides(receiver, lights);
+        proofs += result ? 1u : 0u;
+        return result;
+    }
+};
+
+TEST(HiddenLights, LookBehindWhatIsInTheWay) {
+    const House house;
+    const HiddenLights hidden(house.mesh, SoupHit{house.soup});
+    const ReceiverBox below_the_table{box_of({0.1f, 0.2f, 0.5f})};
+    // The table hides none of so wide a box by itself; the ceiling behind it does.
+    EXPECT_TRUE(hidden.hides(below_the_table, Box{{-2.5f, -2.5f, 4.0f}, {2.5f, 2.5f, 5.0f}}));
+    EXPECT_FALSE(hidden.hides(below_the_table, Box{{-2.5f, -2.5f, 2.0f}, {2.5f, 2.5f, 2.5f}})) << "in the same room";
+    EXPECT_TRUE(hidden.hides(below_the_table, Box{{-0.1f, -0.1f, 2.0f}, {0.3f, 0.3f, 2.5f}})) << "above the table";
+    EXPECT_TRUE(hidden.hides(below_the_table, DirectionBox{{{0.0f, 0.5f, 0.6f}, {0.2f, 0.7f, 0.8f}}}));
+}
+
+TEST(HiddenLights, OfNoTrianglesAreNone) {
+    const OccluderMesh none;
+    const TriangleSoup soup;
+    const HiddenLights hidden(none, SoupHit{soup});
+    EXPECT_FALSE(hidden.hides(ReceiverBox{box_of(glm::vec3(0.0f))}, Box{glm::vec3(1.0f), glm::vec3(2.0f)}));
+}
+
+TEST(HiddenLights, OfWrongTrianglesProveNothingWrong) {
+    const House house;
+    const auto wrong = [](const VisibilityQuery&) { return OccluderMesh::Index{7}; };
+    const HiddenLights hidden(house.mesh, wrong);
+    Random random(2);
+    const HiddenLights right(house.mesh, SoupHit{house.soup});
+    for (int i = 0; i < 500; ++i) {
+        const ReceiverBox receiver{box_of(glm::vec3(random.in_box({-2.9, -2.9, 0.1}, {2.9, 2.9, 5.9})))};
+        const glm::vec3 light(random.in_box({-2.9, -2.9, 0.1}, {2.9, 2.9, 5.9}));
+        if (hidden.hides(receiver, Box{light, light})) { EXPECT_TRUE(right.hides(receiver, Box{light, light})); }
+    }
+}
+
+TEST(HiddenLights, SpareTheCutWhatIsHidden) {
+    const House house;
+    const SoupHit hit{house.soup};
+    const HiddenLights hidden(house.mesh, hit);
+    Random random(3);
+    std::vector<OmniLight<>> lamps;
+    std::vector<DistantLight<>> sky;
+    for (int i = 0; i < 400; ++i) {
+        const double floor = i % 10 == 0 ? 0.2 : 3.2;  // one in ten in the lower room
+        lamps.push_back({glm::vec3(random.in_box({-2.8, -2.8, floor}, {2.8, 2.8, floor + 2.5})), glm::vec3(1.0f), {}});
+        sky.push_back({glm::vec3(random.on_sphere()), glm::vec3(1.0f)});
+    }
+    const LightTree near(lamps);
+    const LightTree far(sky);
+    const LightForest lights(near, far);
+    std::size_t plain = 0, proved = 0, proofs = 0;
+    for (int i = 0; i < 30; ++i) {
+        const Receiver receiver(glm::vec3(random.in_box({-2.8, -2.8, 0.01}, {2.8, 2.8, 0.02})),
+                                Lambert<>{glm::vec3(0.0f, 0.0f, 1.0f), glm::vec3(0.5f)});
+        const HouseOracle oracle{hit, hidden};
+        struct Plain {
+            const HouseOracle& oracle;
+            bool operator()(const Receiver<Lambert<>>& r, const OmniLight<>& light) const { return oracle(r, light); }
+            bool operator()(const Receiver<Lambert<>>& r, const DistantLight<>& light) const {
+                return oracle(r, light);
+            }
+        };
+        const LightcutOptions options{.max_cut = 0, .exhaustive_below = 0};
+        const CutResult<glm::vec3> cut = shade(lights, receiver, oracle, options);
+        const CutResult<glm::vec3> without = shade(lights, receiver, Plain{oracle}, options);
+        const glm::vec3 exact = exhaustive(lights, receiver, oracle).radiance;
+        for (int c = 0; c < 3; ++c)
+            EXPECT_LE(std::fabs(cut.radiance[c] - exact[c]), cut.error_bound[c] + 1e-5f * exact[c]);
+        plain += without.queries;
+        proved += cut.queries;
+        proofs += oracle.proofs;
+    }
+    EXPECT_GT(proofs, 30u);
+    EXPECT_LT(static_cast<double>(proved), 0.6 * static_cast<double>(plain));
+}
+
+TEST(SharedProofs, AreMadeOnceAndForgottenForOthers) {
+    struct Counter {
+        mutable std::size_t asked = 0;
+        bool answer = true;
+        bool hides(const ReceiverBox&, const Box&) const { return ++asked, answer; }
+        bool hides(const ReceiverBox&, const DirectionBox&) const { return ++asked, !answer; }
+    };
+    SharedProofs proofs;
+    Counter counter;
+    const auto box = [](int i) {
+        return Box{glm::vec3(static_cast<float>(i)), glm::vec3(static_cast<float>(i) + 0.5f)};
+    };
+    for (int start = 0; start < 3; ++start) {
+        counter = {0, start % 2 == 0};
+        proofs.start({box_of(glm::vec3(static_cast<float>(start)))});
+        for (int repeat = 0; repeat < 3; ++repeat) {
+            for (int i = 0; i < 3000; ++i) {
+                ASSERT_EQ(proofs.hides(counter, box(i)), counter.answer);
+                // A box of directions is not the box of positions that has the same numbers.
+                ASSERT_EQ(proofs.hides(counter, DirectionBox{box(i)}), !counter.answer);
+            }
+        }
+        EXPECT_EQ(counter.asked, 6000u);
+    }
+}
+
+}  // namespace
+}  // namespace lightcuts::test
