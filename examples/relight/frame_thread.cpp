@@ -5,12 +5,38 @@
 #include <utility>
 
 #include <oneapi/tbb/task_arena.h>
-#include <render/stopwatch.hpp>
 
 namespace relight {
 
-FrameThread::FrameThread(FrameSource& source, int threads, std::function<void()> ready)
-    : source_(source), ready_(std::move(ready)), thread_([this, threads] { run(threads); }) {}
+namespace {
+
+double pixels_of(const FrameState& state) { return static_cast<double>(state.width) * state.height; }
+
+}  // namespace
+
+/// Makes a task group known as that of the picture under way, as long as this object lives.
+class FrameThread::UnderWay {
+public:
+    /// pre: the thread's mutex is held; it is not held when this object is destroyed.
+    UnderWay(FrameThread& thread, tbb::task_group& group, int divisor, bool is_refining) : thread_(thread) {
+        thread.group_ = &group;
+        thread.is_refining_ = is_refining;
+        thread.divisor_ = divisor;
+        thread.since_begin_ = render::Stopwatch();
+    }
+    ~UnderWay() {
+        const std::lock_guard lock(thread_.mutex_);
+        thread_.group_ = nullptr;
+    }
+    UnderWay(const UnderWay&) = delete;
+    UnderWay& operator=(const UnderWay&) = delete;
+
+private:
+    FrameThread& thread_;
+};
+
+FrameThread::FrameThread(FrameSource& source, int threads, std::function<void()> ready, const Pace& pace)
+    : source_(source), ready_(std::move(ready)), pace_(pace), thread_([this, threads] { run(threads); }) {}
 
 FrameThread::~FrameThread() {
     {
@@ -28,9 +54,13 @@ void FrameThread::show(const ShownState& state) {
         if (wanted_ == state) return;
         const bool is_other_frame = !wanted_ || !(wanted_->frame == state.frame);
         wanted_ = state;
-        if (group_ && is_refining_ && is_other_frame) group_->cancel();
+        if (group_ && is_other_frame && is_dispensable()) group_->cancel();
     }
     changed_.notify_one();
+}
+
+bool FrameThread::is_dispensable() const {
+    return is_refining_ || (divisor_ == 1 && since_begin_.seconds() > Pace::most_seconds);
 }
 
 std::shared_ptr<const ShownFrame> FrameThread::take() {
@@ -58,11 +88,10 @@ void FrameThread::run(int threads) {
             const bool has_moved = !made || !(made->state == wanted.frame);
             const bool is_only_exposed = !has_moved && !(shown == wanted);
             if (!is_only_exposed) {
-                const int divisor = has_moved ? pace_.divisor() : Pace::finer(made->divisor);
+                const int divisor = has_moved ? pace_.divisor(pixels_of(wanted.frame)) : Pace::finer(made->divisor);
                 std::optional<Made> next;
                 arena.execute([&] { next = make(wanted.frame, divisor, !has_moved); });
                 if (!next) continue;
-                if (has_moved) pace_.took(next->seconds);
                 made = std::move(next);
             }
             auto frame = developed(wanted, *made);
@@ -80,17 +109,16 @@ void FrameThread::run(int threads) {
 
 std::optional<FrameThread::Made> FrameThread::make(const FrameState& state, int divisor, bool is_refining) {
     tbb::task_group group;
+    std::optional<UnderWay> under_way;
     {
         const std::lock_guard lock(mutex_);
         // What has changed meanwhile has found nothing to cancel.
         if (ends_ || (is_refining && !(wanted_->frame == state))) return std::nullopt;
-        group_ = &group;
-        is_refining_ = is_refining;
+        under_way.emplace(*this, group, divisor, is_refining);
     }
     FrameState coarse = state;
     coarse.width = std::max(1, (state.width + divisor - 1) / divisor);
     coarse.height = std::max(1, (state.height + divisor - 1) / divisor);
-    const render::Stopwatch watch;
     std::optional<render::Picture> picture;
     std::exception_ptr problem;
     group.run_and_wait([&] {
@@ -98,14 +126,13 @@ std::optional<FrameThread::Made> FrameThread::make(const FrameState& state, int 
             picture = source_.picture(coarse);
         } catch (...) { problem = std::current_exception(); }
     });
-    {
-        const std::lock_guard lock(mutex_);
-        group_ = nullptr;
-    }
+    under_way.reset();
+    const double seconds = since_begin_.seconds();
     if (problem) std::rethrow_exception(problem);
+    if (!is_refining) pace_.took(pixels_of(coarse), seconds);
     if (!picture) return std::nullopt;
     return Made{state, divisor, std::make_shared<const render::Picture>(std::move(*picture)), source_.figures(),
-                watch.seconds()};
+                seconds};
 }
 
 std::shared_ptr<const ShownFrame> FrameThread::developed(const ShownState& state, const Made& made) {

@@ -12,6 +12,7 @@
 
 #include <oneapi/tbb/task_group.h>
 #include <render/io/picture.hpp>
+#include <render/stopwatch.hpp>
 
 #include "frame_source.hpp"
 #include "pace.hpp"
@@ -45,15 +46,17 @@ struct ShownFrame {
 class FrameThread {
 public:
     /// `source` must outlive this object, and nobody else may use it meanwhile. `ready` is called by the thread after
-    /// each picture. threads: the source's work is spread over `threads`.
-    FrameThread(FrameSource& source, int threads, std::function<void()> ready);
+    /// each picture. `pace`: what is known of the time that pictures take. threads: the source's work is spread over
+    /// `threads`.
+    FrameThread(FrameSource& source, int threads, std::function<void()> ready, const Pace& pace = {});
     /// Cancels what is under way.
     ~FrameThread();
     FrameThread(const FrameThread&) = delete;
     FrameThread& operator=(const FrameThread&) = delete;
 
-    /// Asks for a picture. One that is under way is finished if it is coarse, so that there is something to see as long
-    /// as states change, and else canceled. cost: never waits for a picture.
+    /// Asks for a picture. If it is another than the one that is under way, that is canceled if it refines a coarser
+    /// one, or if it has divisor 1 and has taken more than Pace::most_seconds; else it is finished, so that there is
+    /// something to see as long as states change. cost: never waits for a picture.
     void show(const ShownState& state);
 
     /// The newest picture, or null if there has been none since the last call. throws: what the source threw.
@@ -69,8 +72,13 @@ private:
         double seconds = 0.0;
     };
 
+    class UnderWay;
+
     void run(int threads);
+    /// Nothing if it was canceled. throws: what the source threw.
     std::optional<Made> make(const FrameState& state, int divisor, bool is_refining);
+    /// Of the picture under way: a change cancels it. pre: `mutex_` is held.
+    bool is_dispensable() const;
     std::shared_ptr<const ShownFrame> developed(const ShownState& state, const Made& made);
 
     FrameSource& source_;
@@ -85,7 +93,9 @@ private:
     std::shared_ptr<const ShownFrame> frame_;
     std::exception_ptr problem_;
     tbb::task_group* group_ = nullptr;  ///< of the picture under way
-    bool is_refining_ = false;          ///< it is one that a change cancels
+    bool is_refining_ = false;          ///< of that picture
+    int divisor_ = 1;                   ///< of that picture
+    render::Stopwatch since_begin_;     ///< of that picture
     bool ends_ = false;
     std::thread thread_;
 };

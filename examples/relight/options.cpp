@@ -175,7 +175,8 @@ void declare_view(CLI::App& command, Options& options) {
     app.number("--seconds", "S", "after which the window closes (0: when it is told to)", 0.0, 1e6,
                "a number from 0 to 1e6", options.seconds);
     command.add_flag("--print-options", options.print_options,
-                     "print, for each finished picture, the options with which `render` makes the same");
+                     "print, for each finished picture, the options with which `render` makes the same; there are none "
+                     "for the place of an orthographic camera");
     declare_common(app, options);
     command.add_flag("--quiet", options.view.quiet, "print nothing but errors and what --print-options asks for");
 }

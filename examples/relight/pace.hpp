@@ -1,32 +1,33 @@
 #pragma once
 
+#include <optional>
+
 namespace relight {
 
-/// How coarse pictures have to be while something moves, for each to take at most about a tenth of a second: a picture
-/// of divisor d has a d-th of the columns and rows.
+/// How coarse pictures have to be while something moves, for each to take at most `most_seconds`: a picture of divisor
+/// d has a d-th of the columns and rows. The time of a picture is taken to be proportional to its pixels.
 class Pace {
 public:
     static constexpr int coarsest = 16;
+    static constexpr double most_seconds = 0.1;
 
-    /// Of the next picture while something moves: 1, 2, 4, 8 or 16.
-    int divisor() const { return divisor_; }
-
-    /// A picture of this divisor took so long. Too long makes the next ones coarser, a third of that time finer.
-    void took(double seconds) {
-        if (seconds > most_seconds && divisor_ < coarsest) {
-            divisor_ *= 2;
-        } else if (seconds < most_seconds / 3.0 && divisor_ > 1) {
-            divisor_ /= 2;
-        }
+    /// Of the next picture while something moves, where that of divisor 1 has so many pixels: 1, 2, 4, 8 or 16, the
+    /// finest that is fast enough by the last time that is known; 4 before there is one.
+    int divisor(double pixels) const {
+        if (!seconds_per_pixel_) return 4;
+        int divisor = 1;
+        while (divisor<coarsest&& * seconds_per_pixel_ * pixels> most_seconds * divisor * divisor) divisor *= 2;
+        return divisor;
     }
+
+    /// A picture of so many pixels, after something had moved, took so long, or was given up after so long.
+    void took(double pixels, double seconds) { seconds_per_pixel_ = seconds / pixels; }
 
     /// Of the picture that follows one of `divisor` when nothing has moved; 1 after the finest but one.
     static int finer(int divisor) { return divisor > 4 ? divisor / 4 : 1; }
 
 private:
-    static constexpr double most_seconds = 0.1;
-
-    int divisor_ = 4;
+    std::optional<double> seconds_per_pixel_;
 };
 
 }  // namespace relight

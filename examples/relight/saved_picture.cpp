@@ -8,19 +8,24 @@
 
 namespace relight {
 
-std::filesystem::path save_picture(const std::filesystem::path& whole, const ShownFrame& frame) {
-    std::filesystem::path path, png;
+SavedPaths free_paths(const std::filesystem::path& whole) {
+    SavedPaths paths;
     std::error_code ignored;
     int number = 0;
     do {
-        path = frame_path(whole, number++);
-        png = render::beside(path, ".png");
-    } while (std::filesystem::exists(path, ignored) || std::filesystem::exists(png, ignored));
+        paths.exr = frame_path(whole, number++);
+        paths.png = render::beside(paths.exr, ".png");
+    } while (std::filesystem::exists(paths.exr, ignored) || std::filesystem::exists(paths.png, ignored));
+    return paths;
+}
+
+std::filesystem::path save_picture(const std::filesystem::path& whole, const ShownFrame& frame) {
+    const SavedPaths paths = free_paths(whole);
     render::FileGroup files;
-    files.add(path, [&] { return render::exr_bytes(*frame.picture); });
-    files.add(png, [&] { return render::png_bytes(frame.picture->width, frame.picture->height, frame.bytes); });
+    files.add(paths.exr, [&] { return render::exr_bytes(*frame.picture); });
+    files.add(paths.png, [&] { return render::png_bytes(frame.picture->width, frame.picture->height, frame.bytes); });
     files.commit();
-    return path;
+    return paths.exr;
 }
 
 }  // namespace relight

@@ -26,8 +26,8 @@ std::string list_of(const Vector& v) {
 
 /// Within [-180, 180).
 double turned(double degrees, double by) {
-    const double sum = degrees + by;
-    return sum >= -180.0 && sum < 180.0 ? sum : sum - 360.0 * std::floor((sum + 180.0) / 360.0);
+    const double turn = std::remainder(degrees + by, 360.0);  // exact, within [-180, 180]
+    return turn == 180.0 ? -180.0 : turn + 0.0;               // not -0
 }
 
 }  // namespace

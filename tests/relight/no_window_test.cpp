@@ -1,18 +1,21 @@
-#include <gtest/gtest.h>
+#include <algorithm>
+#include <stdexcept>
+#include <string>
 
-#include "render/process.hpp"
-#include "support/temporary_folder.hpp"
+#include <gtest/gtest.h>
+#include <relight/window.hpp>
 
 namespace {
 
 TEST(RelightWithoutWindow, SaysSoInOneLine) {
-    const TemporaryFolder folder;
-    const auto result = Process(LIGHTCUTS_RELIGHT_EXECUTABLE, {"view", "a.relight", "--scene", "b", "--env", "c.hdr"},
-                                folder.path(), folder.path())
-                            .wait();
-    EXPECT_EQ(result.status, 1);
-    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
-    EXPECT_NE(result.err.find("this build has no window"), std::string::npos) << result.err;
+    try {
+        relight::show_window(relight::Options());
+        FAIL() << "there is a window";
+    } catch (const std::runtime_error& e) {
+        const std::string says = e.what();
+        EXPECT_EQ(std::count(says.begin(), says.end(), '\n'), 0) << says;
+        EXPECT_NE(says.find("this build has no window"), std::string::npos) << says;
+    }
 }
 
 }  // namespace

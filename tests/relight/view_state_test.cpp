@@ -1,3 +1,4 @@
+#include <cmath>
 #include <iterator>
 #include <sstream>
 #include <string>
@@ -71,6 +72,29 @@ TEST(ViewState, LightTurnsAndComesRound) {
     state.drag(ViewState::Drag::light, 0.0, 0.5);
     EXPECT_DOUBLE_EQ(state.rotation, 7.5);
     EXPECT_EQ(state.frame(3, 3).camera.eye, start().camera.eye);
+}
+
+TEST(ViewState, LightStaysBelowHalfATurn) {
+    for (int turns = -2000; turns <= 2000; ++turns) {
+        const double edge = 180.0 + 360.0 * turns;
+        for (const double rotation : {edge, std::nextafter(edge, -1e9), std::nextafter(edge, 1e9)}) {
+            relight::FrameState turned = start();
+            turned.rotation = rotation;
+            ViewState state(turned, 5.0);
+            state.drag(ViewState::Drag::light, 0.0, 0.0);
+            EXPECT_GE(state.rotation, -180.0) << turns;
+            EXPECT_LT(state.rotation, 180.0) << turns;
+            EXPECT_EQ(std::remainder(state.rotation - rotation, 360.0), 0.0) << turns;
+        }
+    }
+}
+
+TEST(ViewState, OrthographicCamerasHaveNoOptions) {
+    relight::FrameState orthographic = start();
+    orthographic.camera.height = 3.0f;
+    const std::string options = ViewState(orthographic, 5.0).options(30, 20);
+    EXPECT_EQ(options.find("--eye"), std::string::npos) << options;
+    EXPECT_EQ(options.find("--rotate 12.5"), 0u) << options;
 }
 
 TEST(ViewState, KeysUndoEachOtherAndStartAgain) {

@@ -1,9 +1,12 @@
+#include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <iterator>
 #include <memory>
-#include <optional>
+#include <numbers>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -29,7 +32,8 @@ protected:
     std::unique_ptr<VirtualDisplay> display = std::make_unique<VirtualDisplay>();
     std::unique_ptr<Process> window;
 
-    const std::string camera = " --eye 1,5,7 --target 0,0.5,0 --size 160x120";
+    const std::string place = " --eye 1,5,7 --target 0,0.5,0";
+    const std::string camera = place + " --size 160x120";
     const std::string scene = " b.relight --scene block.obj --env sky.exr --quiet";
 
     void SetUp() override {
@@ -50,11 +54,14 @@ protected:
         return Process(LIGHTCUTS_RELIGHT_EXECUTABLE, words(arguments), folder.path(), own.path(), prepare).wait();
     }
 
-    void open() {
+    void start(const std::string& arguments) {
         std::filesystem::remove(streams / "stdout");  // of a window before
-        window = std::make_unique<Process>(LIGHTCUTS_RELIGHT_EXECUTABLE,
-                                           words("view" + scene + camera + " --print-options -o f.exr"), folder.path(),
-                                           streams.path(), display->in_process());
+        window = std::make_unique<Process>(LIGHTCUTS_RELIGHT_EXECUTABLE, words("view" + scene + arguments),
+                                           folder.path(), streams.path(), display->in_process());
+    }
+    /// A window whose picture is finished.
+    void open(const std::string& output = "f.exr", const std::string& size = "160x120") {
+        start(place + " --size " + size + " -o " + output + " --print-options");
         ASSERT_FALSE(printed_line("--eye").empty()) << streams.read("stderr");
     }
     Process::Result close() {
@@ -89,6 +96,15 @@ protected:
 
     std::string own_window() const { return words(display->act({"search", "--name", "lightcuts-relight"})).at(0); }
     void press(const std::string& key) const { display->act({"key", key}); }
+    /// One right after the other.
+    void press(const std::string& key, const std::string& next) const {
+        display->act({"key", "--delay", "0", key, next});
+    }
+    /// A window whose picture is not finished for some seconds.
+    void open_slow(const std::string& more = "") {
+        start(place + " --size 640x480 --spp 8 --illumination-size 100000 --gloss-detail 0.01" + more);
+        display->act({"search", "--sync", "--onlyvisible", "--name", "lightcuts-relight", "windowfocus", "--sync"});
+    }
     /// Over the picture, from its middle.
     void drag(const std::string& button, int right, int down) const {
         display->act({"mousemove", "--window", own_window(), "80", "60", "mousedown", button, "mousemove_relative",
@@ -223,6 +239,77 @@ TEST_F(RelightWindow, SignalClosesIt) {
         EXPECT_EQ(result.err, "lightcuts-relight: interrupted; the window is closed\n");
         EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), files);
     }
+}
+
+TEST_F(RelightWindow, SignalBeforeTheScreenshotIsASignal) {
+    open_slow(" --screenshot w.png");
+    ASSERT_TRUE(window->wait_for_work(0.5));
+    window->send(SIGINT);
+    const auto result = close();
+    EXPECT_EQ(result.status, 3);
+    EXPECT_EQ(result.err, "lightcuts-relight: interrupted; the window is closed\n");
+    EXPECT_FALSE(folder.has("w.png"));
+}
+
+TEST_F(RelightWindow, SavesTheExposureThatWasAskedFor) {
+    open("f.exr", "800x600");
+    press("Up", "s");
+    ASSERT_TRUE(wait_for_file("f-0000.png")) << streams.read("stderr");
+    press("Escape");
+    EXPECT_EQ(close().status, 0);
+    const render::Picture picture = render::read_exr(folder / "f-0000.exr");
+    render::ToneCurve curve = render::tone_curve(picture);
+    curve.exposure *= std::exp2(1.0 / 3.0);
+    render::write_png(folder / "expected.png", picture.width, picture.height, render::tone_mapped(picture, curve));
+    EXPECT_EQ(folder.read("f-0000.png"), folder.read("expected.png"));
+}
+
+TEST_F(RelightWindow, SavesBeforeItCloses) {
+    open();
+    press("s", "Escape");
+    const auto result = close();
+    EXPECT_EQ(result.status, 0);
+    EXPECT_EQ(result.err, "");
+    EXPECT_TRUE(folder.has("f-0000.exr"));
+    EXPECT_TRUE(folder.has("f-0000.png"));
+}
+
+TEST_F(RelightWindow, TellsOfWhatItCouldNotSave) {
+    const std::filesystem::path kept = folder / "kept";
+    for (const bool closes_at_once : {false, true}) {
+        std::filesystem::create_directory(kept);
+        open("kept/f.exr");
+        std::filesystem::remove(kept);
+        if (closes_at_once) {
+            press("s", "Escape");
+        } else {
+            press("s");
+            EXPECT_TRUE(window->wait_until([&] { return !streams.read("stderr").empty(); }));
+            press("Escape");
+        }
+        const auto result = close();
+        EXPECT_EQ(result.status, 1);
+        EXPECT_EQ(result.err.find("lightcuts-relight: kept/f-0000.exr: cannot be written"), 0u) << result.err;
+        EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    }
+}
+
+TEST_F(RelightWindow, TellsThatAPictureWasNotFinished) {
+    open_slow(" -o f.exr");
+    press("s", "Escape");
+    const auto result = close();
+    EXPECT_EQ(result.status, 1);
+    EXPECT_NE(result.err.find("it is not saved"), std::string::npos) << result.err;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    EXPECT_FALSE(folder.has("f-0000.exr"));
+}
+
+TEST_F(RelightWindow, StartsWhereTheFirstNameIsTaken) {
+    std::filesystem::create_directory(folder / "f-0000.exr");
+    open();
+    press("s", "Escape");
+    EXPECT_EQ(close().status, 0);
+    EXPECT_TRUE(folder.has("f-0001.png"));
 }
 
 TEST_F(RelightWindow, RefusesInOneLine) {

@@ -104,20 +104,41 @@ void Viewer::receive() {
 }
 
 void Viewer::look_after_saving() {
-    if (saving_.valid() && saving_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
-        message_ = saving_.get();
-        if (!options_.view.quiet) std::fprintf(stderr, "lightcuts-relight: %s\n", render::escaped(message_).c_str());
-        drawn_since_ = 0;
-    }
-    if (!is_asked_to_save_ || saving_.valid() || !is_current()) return;
+    if (saving_.valid() && saving_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) end_saving();
+    if (is_asked_to_save_ && !saving_.valid() && is_current()) begin_saving();
+}
+
+void Viewer::begin_saving() {
     is_asked_to_save_ = false;
     message_ = "saving";
     // Encoding takes longer than the window may be silent.
-    saving_ = std::async(std::launch::async, [whole = options_.view.output, frame = shown_]() -> std::string {
-        try {
-            return save_picture(whole, *frame).string() + " saved";
-        } catch (const std::exception& e) { return render::explanation(e); }
-    });
+    saving_ = std::async(std::launch::async,
+                         [whole = options_.view.output, frame = shown_] { return save_picture(whole, *frame); });
+}
+
+void Viewer::end_saving() {
+    try {
+        message_ = saving_.get().string() + " saved";
+        if (!options_.view.quiet) std::fprintf(stderr, "lightcuts-relight: %s\n", render::escaped(message_).c_str());
+    } catch (const std::exception& e) { tell_unsaved(render::explanation(e)); }
+    drawn_since_ = 0;
+}
+
+void Viewer::finish_saving() {
+    if (saving_.valid()) end_saving();
+    if (is_asked_to_save_ && is_current()) {
+        begin_saving();
+        end_saving();
+    }
+    if (is_asked_to_save_) {
+        tell_unsaved("the window was closed before the picture to save was finished; it is not saved");
+    }
+}
+
+void Viewer::tell_unsaved(const std::string& why) {
+    has_unsaved_ = true;
+    message_ = why;
+    std::fprintf(stderr, "lightcuts-relight: %s\n", render::escaped(message_).c_str());
 }
 
 void Viewer::draw_controls() {
@@ -193,20 +214,19 @@ void Viewer::draw() {
     ++drawn_since_;
 }
 
-render::ExitStatus Viewer::run() {
+void Viewer::show() {
     const render::Stopwatch since_start;
     render::Stopwatch busy;
-    bool has_screenshot = false;
-    while (glfwWindowShouldClose(canvas_.get()) == GLFW_FALSE && !has_screenshot && !render::interrupted() &&
+    while (glfwWindowShouldClose(canvas_.get()) == GLFW_FALSE && !has_screenshot_ && !render::interrupted() &&
            !(options_.seconds > 0.0 && since_start.seconds() >= options_.seconds)) {
         measure();
         receive();
-        frames_.show({state_.frame(picture_width_, picture_height_), state_.exposure, fits_});
+        frames_.show(wanted());
         look_after_saving();
         draw();
         if (!options_.screenshot.empty() && is_current() && drawn_since_ >= settling) {
             render::write_file(options_.screenshot, canvas_.png());
-            has_screenshot = true;
+            has_screenshot_ = true;
         }
         glfwSwapBuffers(canvas_.get());
         // The first drawing also makes the driver's programs.
@@ -218,14 +238,25 @@ render::ExitStatus Viewer::run() {
         }
         busy.lap();
     }
+}
+
+render::ExitStatus Viewer::run() {
+    try {
+        show();
+    } catch (...) {
+        finish_saving();
+        throw;
+    }
+    finish_saving();
     if (!options_.view.quiet) {
         std::fprintf(stderr, "%d pictures, %d of them finished; the window was never busy for more than %.0f ms\n",
                      pictures_, finished_, 1e3 * longest_);
     }
-    if (!options_.screenshot.empty() && !has_screenshot) {
+    if (render::interrupted()) return render::stopped;
+    if (!options_.screenshot.empty() && !has_screenshot_) {
         throw std::runtime_error("the window was closed before its picture was finished; there is no screenshot");
     }
-    return render::interrupted() ? render::stopped : render::done;
+    return has_unsaved_ ? render::bad_input : render::done;
 }
 
 }  // namespace relight

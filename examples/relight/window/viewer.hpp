@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <future>
 #include <memory>
 #include <optional>
@@ -25,8 +26,9 @@ public:
           canvas_(options.view.width + panel_width, options.view.height, "lightcuts-relight: " + scene), gui_(listen()),
           frames_(source, threads, [] { glfwPostEmptyEvent(); }) {}
 
-    /// Until the window is closed, or a signal comes: `stopped`. throws: what the source throws; invalid_input if the
-    /// screenshot cannot be written, std::runtime_error if there was no time for it.
+    /// Until the window is closed, or a signal comes: `stopped`. Pictures that are being saved then are saved;
+    /// `bad_input`, and a line on stderr for each, if one that was asked for could not be. throws: what the source
+    /// throws; invalid_input if the screenshot cannot be written, std::runtime_error if there was no time for it.
     render::ExitStatus run();
 
 private:
@@ -41,12 +43,22 @@ private:
     void on_key(int key);
     void measure();
     bool is_in_picture(double x) const { return x * scale_ < picture_width_; }
-    bool is_current() const {
-        return shown_ && shown_->is_at_rest() && shown_->state.frame == state_.frame(picture_width_, picture_height_);
-    }
+    ShownState wanted() const { return {state_.frame(picture_width_, picture_height_), state_.exposure, fits_}; }
+    /// What is wanted is shown, finished and exposed.
+    bool is_current() const { return shown_ && shown_->is_at_rest() && shown_->state == wanted(); }
 
     void receive();
     void look_after_saving();
+    /// Begins to save the picture that is shown.
+    void begin_saving();
+    /// Waits until it is saved, and tells of it.
+    void end_saving();
+    /// Saves what was asked for and is finished, and tells of what is not.
+    void finish_saving();
+    /// Tells on stderr and in the panel of what was not saved.
+    void tell_unsaved(const std::string& why);
+    /// Until the window is closed, a signal comes, or time or screenshot is over.
+    void show();
     void draw();
     void draw_controls();
     void draw_figures();
@@ -70,8 +82,11 @@ private:
     int drawn_since_ = 0;  ///< since something came that is drawn
     double longest_ = 0.0;
 
+    bool has_screenshot_ = false;
+
     bool is_asked_to_save_ = false;
-    std::future<std::string> saving_;
+    bool has_unsaved_ = false;
+    std::future<std::filesystem::path> saving_;
     std::string message_;
 };
 

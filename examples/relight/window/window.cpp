@@ -13,9 +13,9 @@
 #include <render/thread_limit.hpp>
 #include <render/view.hpp>
 
-#include "../frame_path.hpp"
 #include "../mesh.hpp"
 #include "../prepared_scene.hpp"
+#include "../saved_picture.hpp"
 #include "viewer.hpp"
 
 namespace relight {
@@ -32,7 +32,9 @@ double middle_distance(const PreparedScene& prepared, const render::Camera& came
 }
 
 void check_outputs(const Options& options, const std::vector<std::filesystem::path>& inputs) {
-    render::require_writable(frame_path(options.view.output, 0));
+    const SavedPaths paths = free_paths(options.view.output);
+    render::require_writable(paths.exr);
+    render::require_writable(paths.png);
     if (options.screenshot.empty()) return;
     render::require_writable(options.screenshot);
     for (const auto& input : inputs) render::require_apart(options.screenshot, input);
