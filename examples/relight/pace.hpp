@@ -15,8 +15,9 @@ public:
     /// finest that is fast enough by the last time that is known; 4 before there is one.
     int divisor(double pixels) const {
         if (!seconds_per_pixel_) return 4;
+        const double whole = pixels * seconds_per_pixel_.value();
         int divisor = 1;
-        while (divisor<coarsest&& * seconds_per_pixel_ * pixels> most_seconds * divisor * divisor) divisor *= 2;
+        while (divisor < coarsest && whole > most_seconds * divisor * divisor) divisor *= 2;
         return divisor;
     }
 

@@ -9,8 +9,9 @@
 
 /// A small world on disk, with the options of a program that shows it.
 struct ViewedWorld {
-    explicit ViewedWorld(const relight::CutOptions& cuts = {.deviation = 0.5}, double edge = 1.0)
-        : world(block_over_floor, cuts, 512, edge),
+    explicit ViewedWorld(const relight::CutOptions& cuts = {.deviation = 0.5}, double edge = 1.0,
+                         const SmallBounce& bounce = {})
+        : world(block_over_floor, cuts, 512, edge, 32, bounce),
           prepared(world.folder / "scene.relight", relight::load_still_scene(world.folder / "scene.obj"),
                    render::RayTracer()) {
         render::write_exr(world.folder / "map.exr", small_map());
