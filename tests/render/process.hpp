@@ -38,6 +38,8 @@ public:
         if (child_ == 0) {
             redirect(out_, STDOUT_FILENO);
             redirect(err_, STDERR_FILENO);
+            // A shell starts what runs in the background with signals ignored, and programs inherit that.
+            for (const int signal : {SIGINT, SIGTERM, SIGHUP}) ::signal(signal, SIG_DFL);
             const bool there = ::chdir(folder.c_str()) == 0;
             if (prepare) prepare();
             if (there) ::execv(program.c_str(), argv.data());
