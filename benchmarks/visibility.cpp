@@ -78,11 +78,12 @@ lightcuts::ReceiverBox box_of_group(const Workload& work, std::span<const std::u
     lightcuts::ReceiverBox group;
     bool alike = true;
     for (const std::uint32_t i : order.first(std::min(count, order.size()))) {
-        const Receiver& r = work.receivers()[i];
-        group.box = lightcuts::merge(group.box, lightcuts::box_of(r.shadow_origin));
-        const auto horizon = r.material.horizon();
-        alike = alike && horizon && (!group.horizon || *group.horizon == *horizon);
-        if (horizon && !group.horizon) group.horizon = horizon;
+        const lightcuts::ReceiverBox one = lightcuts::box_of(work.receivers()[i]);
+        const bool is_first = lightcuts::is_empty(group.box);
+        group.box = lightcuts::merge(group.box, one.box);
+        if (is_first) group.horizon = one.horizon;
+        alike = alike && one.horizon && one.horizon->normal == group.horizon->normal;
+        if (alike) group.horizon->positions = lightcuts::merge(group.horizon->positions, one.horizon->positions);
     }
     if (!alike) group.horizon.reset();
     return group;

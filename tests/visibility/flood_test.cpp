@@ -115,7 +115,11 @@ bool check(const Case& scene, const OccluderMesh& mesh, const ReceiverBox& recei
         for (int i = 0; i < 40; ++i) {
             const glm::dvec3 from = point_of(random, receivers.box), to = point_of(random, box);
             const glm::dvec3 way = middle.distant ? to * far : (to - from) * ray_end;
-            if (receivers.horizon && glm::dot(glm::dvec3(*receivers.horizon), way) < 0.0) continue;
+            if (receivers.horizon) {
+                const glm::dvec3 position = point_of(random, receivers.horizon->positions);
+                const glm::dvec3 seen = middle.distant ? to : to - position;
+                if (glm::dot(glm::dvec3(receivers.horizon->normal), seen) <= 0.0) continue;
+            }
             EXPECT_FALSE(scene.soup.hits(from, way).empty())
                 << "from " << from.x << ' ' << from.y << ' ' << from.z << " to " << to.x << ' ' << to.y << ' ' << to.z;
         }
@@ -134,7 +138,12 @@ TEST_P(Floods, HideOnlyWhatEveryRayFindsBlocked) {
         const OccluderMesh mesh = mesh_of(made.soup);
         for (int i = 0; i < 400; ++i) {
             ReceiverBox receivers{random_box(random, made.lo, made.hi, random.chance(0.5) ? 0.0 : 0.5)};
-            if (random.chance(0.3)) receivers.horizon = glm::vec3(random.on_sphere());
+            if (random.chance(0.4)) {
+                // Shadow rays start off the receivers' positions.
+                const glm::vec3 normal(random.on_sphere());
+                const glm::vec3 lift = static_cast<float>(random.decades(-6.0, -0.5)) * normal;
+                receivers.horizon = Horizon{normal, {receivers.box.lo - lift, receivers.box.hi - lift}};
+            }
             if (random.chance(0.5)) {
                 hidden += check(made, mesh, receivers, random_box(random, made.lo, made.hi, made.light_size), random);
             } else {
@@ -239,8 +248,57 @@ TEST(Flood, NothingBelowTheHorizonNeedsToBeHidden) {
         return soup.hits(middle.from, middle.way()).front();
     };
     EXPECT_FALSE(flood.hides(receivers, lights, start()));
-    receivers.horizon = {0.0f, 0.0f, 1.0f};
+    receivers.horizon = Horizon{{0.0f, 0.0f, 1.0f}, box_of({0.0f, 0.0f, 0.0f})};
     EXPECT_TRUE(flood.hides(receivers, lights, start()));
+}
+
+TEST(Flood, WhatIsLitFromBelowTheShadowOriginIsNotHidden) {
+    // Rays start above the receiver. A wall leaves a gap below that height, through which a low light is seen.
+    for (const float lift : {1e-2f, 1e-3f, 1e-4f}) {
+        TriangleSoup soup;
+        Random random(6);
+        soup.add_sheet(random, {0.5, -9, 0.8 * static_cast<double>(lift)}, {0, 18, 0}, {0, 0, 9}, 3, 3);
+        const OccluderMesh mesh = mesh_of(soup);
+        const ReceiverBox receivers{box_of({0.0f, 0.0f, lift}), Horizon{{0.0f, 0.0f, 1.0f}, box_of(glm::vec3(0.0f))}};
+        const auto hides = [&](const Box& lights) {
+            const Flood::Segment middle = Flood::start_segment(receivers, lights);
+            return Flood(mesh).hides(receivers, lights, soup.hits(middle.from, middle.way()).front());
+        };
+        EXPECT_FALSE(hides({{1.0f, 0.0f, 0.5f * lift}, {1.0f, 0.0f, 1.0f}}));
+        EXPECT_TRUE(hides({{1.0f, 0.0f, 0.9f * lift}, {1.0f, 0.0f, 1.0f}}));
+    }
+}
+
+TEST(Flood, DirectionsAndTheirOppositesAreNotHiddenByOneTriangle) {
+    TriangleSoup soup;
+    soup.add({-2, -9, -9}, {-2, 9, -9}, {-2, 0, 9});
+    const OccluderMesh mesh = mesh_of(soup);
+    const Flood flood(mesh);
+    const ReceiverBox receivers{box_of(glm::vec3(0.0f))};
+    const auto both = [](const glm::vec3& a, const glm::vec3& b) { return DirectionBox{merge(box_of(a), box_of(b))}; };
+    EXPECT_TRUE(flood.hides(receivers, both({-1, 0, 0}, {-1, 0.01f, 0.01f}), 0));
+    EXPECT_FALSE(flood.hides(receivers, both({1, 0, 0}, {-1, 0, 0}), 0));
+    EXPECT_FALSE(flood.hides(receivers, both({1, 0, 0}, {-1, 1.2246e-16f, 0}), 0));
+    EXPECT_FALSE(flood.hides(receivers, both({1, 3e-13f, 3e-13f}, {-1, 6e-13f, 6e-13f}), 0));
+    EXPECT_FALSE(flood.hides(receivers, both({1, 0, 0}, {-1, 1e-6f, 0}), 0));
+}
+
+TEST(Flood, LongWalksAreGivenUp) {
+    Random random(7);
+    TriangleSoup soup;
+    soup.add_sheet(random, {-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, 40, 40);
+    const OccluderMesh mesh = mesh_of(soup);
+    const ReceiverBox receivers{box_of({0.0f, 0.0f, 1.0f})};
+    const auto hides = [&](float width, const FloodOptions& options) {
+        const Box lights{{-width, -width, -1.0f}, {width, width, -0.9f}};
+        const Flood::Segment middle = Flood::start_segment(receivers, lights);
+        return Flood(mesh, options).hides(receivers, lights, soup.hits(middle.from, middle.way()).front());
+    };
+    EXPECT_TRUE(hides(0.1f, {}));
+    EXPECT_TRUE(hides(0.3f, {}));
+    EXPECT_FALSE(hides(0.3f, {.max_triangles = 20}));
+    EXPECT_FALSE(hides(1.5f, {.max_triangles = 512})) << "some two thousand triangles";
+    EXPECT_FALSE(hides(0.1f, {.max_triangles = 1}));
 }
 
 TEST(Flood, WhatIsNoStartProvesNothing) {

@@ -87,15 +87,33 @@ TEST(HiddenLights, OfNoTrianglesAreNone) {
 
 TEST(HiddenLights, OfWrongTrianglesProveNothingWrong) {
     const House house;
-    const auto wrong = [](const VisibilityQuery&) { return OccluderMesh::Index{7}; };
-    const HiddenLights hidden(house.mesh, wrong);
     Random random(2);
-    const HiddenLights right(house.mesh, SoupHit{house.soup});
-    for (int i = 0; i < 500; ++i) {
-        const ReceiverBox receiver{box_of(glm::vec3(random.in_box({-2.9, -2.9, 0.1}, {2.9, 2.9, 5.9})))};
+    const SoupHit hit{house.soup};
+    int proofs = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const auto any = [&](const VisibilityQuery&) {
+            return static_cast<OccluderMesh::Index>(random.below(house.mesh.size() + 2));
+        };
+        const HiddenLights hidden(house.mesh, any);
+        const glm::vec3 from(random.in_box({-2.9, -2.9, 0.1}, {2.9, 2.9, 5.9}));
         const glm::vec3 light(random.in_box({-2.9, -2.9, 0.1}, {2.9, 2.9, 5.9}));
-        if (hidden.hides(receiver, Box{light, light})) { EXPECT_TRUE(right.hides(receiver, Box{light, light})); }
+        if (hidden.hides(ReceiverBox{box_of(from)}, Box{light, light})) {
+            ++proofs;
+            EXPECT_NE(hit({from, 0, light, 0, 0, false}), OccluderMesh::no_triangle) << i;
+        }
     }
+    EXPECT_GT(proofs, 50);
+}
+
+TEST(HiddenLights, AskNothingWhereNothingIs) {
+    const House house;
+    int asked = 0;
+    const auto count = [&](const VisibilityQuery&) { return ++asked, OccluderMesh::no_triangle; };
+    const HiddenLights hidden(house.mesh, count);
+    EXPECT_FALSE(hidden.hides(ReceiverBox{}, Box{glm::vec3(0.0f), glm::vec3(1.0f)}));
+    EXPECT_FALSE(hidden.hides(ReceiverBox{box_of(glm::vec3(0.0f))}, Box{}));
+    EXPECT_FALSE(hidden.hides(ReceiverBox{box_of(glm::vec3(0.0f))}, DirectionBox{}));
+    EXPECT_EQ(asked, 0);
 }
 
 TEST(HiddenLights, SpareTheCutWhatIsHidden) {
@@ -153,16 +171,38 @@ TEST(SharedProofs, AreMadeOnceAndForgottenForOthers) {
     };
     for (int start = 0; start < 3; ++start) {
         counter = {0, start % 2 == 0};
-        proofs.start({box_of(glm::vec3(static_cast<float>(start)))});
+        const ReceiverBox receiver{box_of(glm::vec3(static_cast<float>(start)))};
+        proofs.start(receiver);
         for (int repeat = 0; repeat < 3; ++repeat) {
             for (int i = 0; i < 3000; ++i) {
-                ASSERT_EQ(proofs.hides(counter, box(i)), counter.answer);
+                ASSERT_EQ(proofs.hides(counter, receiver, box(i)), counter.answer);
                 // A box of directions is not the box of positions that has the same numbers.
-                ASSERT_EQ(proofs.hides(counter, DirectionBox{box(i)}), !counter.answer);
+                ASSERT_EQ(proofs.hides(counter, receiver, DirectionBox{box(i)}), !counter.answer);
             }
         }
         EXPECT_EQ(counter.asked, 6000u);
     }
+}
+
+TEST(SharedProofs, AreForThoseOfTheGroupOnly) {
+    // A leaf: what it hides from its front is seen from behind.
+    TriangleSoup soup;
+    soup.add({-9, -9, 0}, {9, -9, 0}, {0, 9, 0});
+    const OccluderMesh mesh(1, [&](std::size_t i) { return soup.triangles[i]; });
+    const HiddenLights hidden(mesh, SoupHit{soup});
+    const Box below{{-1.0f, -1.0f, -2.0f}, {1.0f, 1.0f, -1.0f}};
+    const ReceiverBox front{box_of({0.0f, 0.0f, 1e-2f})}, behind{box_of({0.0f, 0.0f, -1e-2f})};
+    SharedProofs proofs;
+    EXPECT_FALSE(proofs.hides(hidden, behind, below)) << "before it is started";
+    proofs.start(front);
+    EXPECT_TRUE(proofs.hides(hidden, front, below));
+    EXPECT_FALSE(proofs.hides(hidden, behind, below));
+    // Another horizon than the group's.
+    const Horizon up{{0.0f, 0.0f, 1.0f}, box_of(glm::vec3(0.0f))}, down{{0.0f, 0.0f, -1.0f}, box_of(glm::vec3(0.0f))};
+    const ReceiverBox lit_from_below{behind.box, down};
+    proofs.start({merge(front.box, behind.box), up});
+    EXPECT_FALSE(proofs.hides(hidden, lit_from_below, below));
+    EXPECT_FALSE(proofs.hides(hidden, behind, below)) << "one without a horizon";
 }
 
 }  // namespace

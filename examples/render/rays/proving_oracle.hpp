@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include <lightcuts/core/assertion.hpp>
 #include <lightcuts/core/box.hpp>
+#include <lightcuts/core/rounding.hpp>
 #include <lightcuts/visibility/hidden_lights.hpp>
 #include <lightcuts/visibility/shared_proofs.hpp>
 
@@ -39,14 +42,21 @@ public:
     ProvingOracle(const Scene& scene, const RayScene& rays, const lightcuts::OccluderMesh& mesh,
                   lightcuts::SharedProofs* group = nullptr)
         : OpaqueOracle(scene, rays), hidden_(mesh, FirstTriangle(rays)), group_(group) {
-        // Shadow rays end off the surfaces that lights lie on, and at the spheres that they lie in.
-        largest_radius_ = static_cast<float>(1e-5 * mesh.reach());
-        for (const auto& sphere : scene.spheres) largest_radius_ = std::max(largest_radius_, sphere.radius);
+        LIGHTCUTS_ASSERT(scene.is_still());
+        // Shadow rays end off the surfaces that lights lie on, and where they enter the spheres that lights lie in.
+        ends_off_ = 1e-5 * mesh.reach();
+        for (const auto& sphere : scene.spheres)
+            ends_off_ = std::max(ends_off_, 2.0 * static_cast<double>(sphere.radius));
     }
 
     template <class M>
     bool hides(const lightcuts::Receiver<M>& receiver, const lightcuts::Box& lights) const {
-        return prove(receiver, lightcuts::Box{lights.lo - largest_radius_, lights.hi + largest_radius_});
+        lightcuts::Box ends;
+        for (int axis = 0; axis < 3; ++axis) {
+            ends.lo[axis] = lightcuts::round_down(static_cast<double>(lights.lo[axis]) - ends_off_);
+            ends.hi[axis] = lightcuts::round_up(static_cast<double>(lights.hi[axis]) + ends_off_);
+        }
+        return prove(receiver, ends);
     }
     template <class M>
     bool hides(const lightcuts::Receiver<M>& receiver, const lightcuts::DirectionBox& lights) const {
@@ -56,12 +66,15 @@ public:
 private:
     template <class M, class Lights>
     bool prove(const lightcuts::Receiver<M>& receiver, const Lights& lights) const {
-        return group_ ? group_->hides(hidden_, lights) : hidden_.hides(receiver, lights);
+        // Asked from behind of what reflects nothing from there.
+        const std::optional<glm::vec3> normal = receiver.material.horizon();
+        if (normal && glm::dot(*normal, receiver.shadow_origin - receiver.position) < 0.0f) return true;
+        return group_ ? group_->hides(hidden_, lightcuts::box_of(receiver), lights) : hidden_.hides(receiver, lights);
     }
 
     lightcuts::HiddenLights<FirstTriangle> hidden_;
     lightcuts::SharedProofs* group_;
-    float largest_radius_ = 0.0f;
+    double ends_off_ = 0.0;  ///< the largest distance of where a ray ends from its light
 };
 
 }  // namespace render

@@ -8,6 +8,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "../core/assertion.hpp"
 #include "../core/box.hpp"
 #include "occluder_mesh.hpp"
 #include "oracle.hpp"
@@ -15,22 +16,28 @@
 
 namespace lightcuts {
 
+/// Below which receivers reflect nothing: from light at `b` to a receiver at `p`, if dot(normal, b - p) <= 0.
+struct Horizon {
+    glm::vec3 normal;  ///< not zero
+    Box positions;     ///< of the receivers, not where their shadow rays start
+};
+
 /// Where shadow rays of some receivers start.
 struct ReceiverBox {
     Box box;
-    /// A normal, not zero, such that receivers reflect no light from directions `d` with dot(normal, d) < 0, if there
-    /// is one for all of them: what is below their horizon then need not be hidden.
-    std::optional<glm::vec3> horizon = {};
+    /// One for all of them, if there is one: what is below need not be hidden.
+    std::optional<Horizon> horizon = {};
 };
 
 /// How lights are proved to be hidden.
 struct FloodOptions {
     /// A proof does not use a triangle in whose plane a receiver or, of triangles that reach them, a light lies, within
-    /// this times the largest coordinate.
+    /// this times the largest coordinate. At least 1e-12.
     double margin = 2e-6;
-    /// Shadow rays may end before their light by this part of their length: what is nearer to a light hides nothing.
+    /// Shadow rays may end before their light by this part of their length, below 1: what is nearer to a light hides
+    /// nothing.
     double untraced_end = 1e-3;
-    /// A walk over more triangles is given up; at most `Flood::most_triangles`.
+    /// A walk over more triangles is given up; from 1 to `Flood::most_triangles`.
     std::uint32_t max_triangles = 400;
 };
 
@@ -40,15 +47,18 @@ struct FloodOptions {
 /// between receivers and lights. For take a segment from a receiver to a light that one of its triangles blocks, and
 /// move both ends to another receiver and another light: the point where the segment is blocked moves over the sheet,
 /// and at each edge passes on to the triangle on the other side. All predicates are rounded such that doubt ends a
-/// proof. Never wrong, but for shadow rays that slip through between triangles; and often without an answer: what
-/// several sheets hide together is not found. A view of the mesh.
+/// proof. Never wrong, but for rays whose own rounding lets them pass an edge that they meet; and often without an
+/// answer: what several sheets hide together is not found. A view of the mesh.
 class Flood {
 public:
     using Index = OccluderMesh::Index;
 
     static constexpr std::size_t most_triangles = 512;
 
-    explicit Flood(const OccluderMesh& mesh, const FloodOptions& options = {}) : mesh_(mesh), options_(options) {}
+    explicit Flood(const OccluderMesh& mesh, const FloodOptions& options = {}) : mesh_(mesh), options_(options) {
+        LIGHTCUTS_ASSERT(options.margin >= 1e-12 && options.untraced_end >= 0.0 && options.untraced_end < 1.0);
+        LIGHTCUTS_ASSERT(options.max_triangles >= 1 && options.max_triangles <= most_triangles);
+    }
     /// It would refer to what is gone.
     explicit Flood(const OccluderMesh&&, const FloodOptions& = {}) = delete;
 
@@ -62,6 +72,14 @@ public:
     /// The same for every ray in a direction of `lights`.
     bool hides(const ReceiverBox& receivers, const DirectionBox& lights, Index start) const {
         return walk(receivers, lights, lights.box, start);
+    }
+
+    /// True if there are no receivers or no lights.
+    static bool is_empty_problem(const ReceiverBox& receivers, const Box& lights) {
+        return is_empty(receivers.box) || is_empty(lights);
+    }
+    static bool is_empty_problem(const ReceiverBox& receivers, const DirectionBox& lights) {
+        return is_empty_problem(receivers, lights.box);
     }
 
     /// Between a receiver and a light; or a ray in a direction.
@@ -156,7 +174,9 @@ private:
 
     template <class Lights>
     bool walk(const ReceiverBox& receivers, const Lights& lights, const Box& box, Index start) const {
-        if (start >= mesh_.size() || is_empty(receivers.box) || is_empty(box)) return false;
+        if (start >= mesh_.size() || is_empty_problem(receivers, lights)) return false;
+        // From one direction to its opposite there is no way but through none.
+        if (is_distant(lights) && !(min_distance2({glm::dvec3(box.lo), glm::dvec3(box.hi)}) > 1e-4)) return false;
         double reach = mesh_.reach();
         for (int axis = 0; axis < 3; ++axis) {
             reach = detail::larger(reach, magnitude(receivers.box, axis));
@@ -169,7 +189,11 @@ private:
                                 reach,
                                 options_.margin * reach,
                                 Shaft(receivers.box, lights, reach)};
-        if (receivers.horizon) problem.shaft.cut_below(*receivers.horizon, receivers.box);
+        if (receivers.horizon) {
+            const Horizon& horizon = *receivers.horizon;
+            problem.shaft.cut_below(horizon.normal, Shaft::lowest(horizon.positions, glm::dvec3(horizon.normal)),
+                                    receivers.box, lights);
+        }
         if (!blocks_start_segment(problem, start)) return false;
 
         const Side side = side_of(problem, plane_of(start, reach), start);
@@ -326,13 +350,15 @@ private:
     }
     static Segment start_segment(const ReceiverBox& receivers, const Box& lights, bool distant) {
         Segment segment{inside(receivers.box), inside(lights), distant, true};
-        const auto is_below = [&](const glm::dvec3& n) { return detail::dot(n, segment.way()) <= 0.0; };
-        if (receivers.horizon && is_below(glm::dvec3(*receivers.horizon))) {
-            const glm::vec3& n = *receivers.horizon;
-            for (int axis = 0; axis < 3; ++axis) {
-                segment.to[axis] = static_cast<double>(n[axis] > 0.0f ? lights.hi[axis] : lights.lo[axis]);
+        if (receivers.horizon) {
+            const glm::dvec3 n(receivers.horizon->normal), position = inside(receivers.horizon->positions);
+            const auto is_below = [&] { return !(detail::dot(n, distant ? segment.to : segment.to - position) > 0.0); };
+            if (is_below()) {
+                for (int axis = 0; axis < 3; ++axis) {
+                    segment.to[axis] = static_cast<double>(n[axis] > 0.0 ? lights.hi[axis] : lights.lo[axis]);
+                }
+                segment.exists = !is_below();
             }
-            segment.exists = !is_below(glm::dvec3(n));
         }
         const glm::dvec3 way = segment.way();
         segment.exists = segment.exists && detail::dot(way, way) > 0.0;

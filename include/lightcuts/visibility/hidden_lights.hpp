@@ -1,7 +1,6 @@
 #pragma once
 
 #include <concepts>
-#include <cstdint>
 #include <optional>
 #include <type_traits>
 #include <utility>
@@ -28,12 +27,29 @@ concept FirstHit = requires(const H& hit, const VisibilityQuery& query) {
     { hit(query) } -> std::convertible_to<OccluderMesh::Index>;
 };
 
-/// A material whose `horizon()` is a normal such that it reflects nothing from directions `d` with dot(horizon(), d) <
+/// A material whose `horizon()` is a normal such that it reflects nothing from directions `d` with dot(horizon(), d) <=
 /// 0, or nothing if it has none, as what light passes through.
 template <class M>
 concept MaterialWithHorizon = requires(const M& material) {
     { material.horizon() } -> std::convertible_to<std::optional<glm::vec3>>;
 };
+
+/// A receiver as a box of one: its shadow_origin, and the horizon that its material says it has, see
+/// MaterialWithHorizon; Lambert's is known.
+template <class M>
+ReceiverBox box_of(const Receiver<M>& receiver) {
+    ReceiverBox box{box_of(receiver.shadow_origin)};
+    std::optional<glm::vec3> normal;
+    if constexpr (MaterialWithHorizon<std::remove_cvref_t<M>>) {
+        normal = receiver.material.horizon();
+    } else if constexpr (CosineLobeMaterial<std::remove_cvref_t<M>>) {
+        const auto lobe = receiver.material.cosine_lobe();
+        const Cone normals = merge(Cone{}, lobe.normal);
+        if (is_single(normals)) normal = normals.axis;
+    }
+    if (normal) box.horizon = Horizon{*normal, box_of(receiver.position)};
+    return box;
+}
 
 /// Says of boxes of lights that all of them are hidden from a receiver, if `Flood` proves it: what a HidingOracle
 /// answers from. A view of the mesh.
@@ -51,7 +67,7 @@ public:
     /// threads: as `H`. cost: one to three rays, and Flood's
     template <class Lights>
     bool hides(const ReceiverBox& receivers, const Lights& lights) const {
-        if (mesh_.empty()) return false;
+        if (mesh_.empty() || Flood::is_empty_problem(receivers, lights)) return false;
         const Flood::Segment segment = Flood::start_segment(receivers, lights);
         if (!segment.exists) return false;
         VisibilityQuery query{glm::vec3(segment.from), 0, glm::vec3(segment.to), 0, 0, segment.distant};
@@ -69,15 +85,7 @@ public:
     /// The same of a receiver, whose rays start at its shadow_origin: what the `hides` of a HidingOracle returns.
     template <class M, class Lights>
     bool hides(const Receiver<M>& receiver, const Lights& lights) const {
-        ReceiverBox box{box_of(receiver.shadow_origin)};
-        if constexpr (MaterialWithHorizon<std::remove_cvref_t<M>>) {
-            box.horizon = receiver.material.horizon();
-        } else if constexpr (CosineLobeMaterial<std::remove_cvref_t<M>>) {
-            const auto lobe = receiver.material.cosine_lobe();
-            const Cone normals = merge(Cone{}, lobe.normal);
-            if (is_single(normals)) box.horizon = normals.axis;
-        }
-        return hides(box, lights);
+        return hides(box_of(receiver), lights);
     }
 
 private:

@@ -17,16 +17,24 @@ namespace lightcuts {
 /// exceeds the rounding of tests against them.
 class Shaft {
 public:
-    /// pre: neither box is empty; coordinates are finite. `reach`: no coordinate that is tested is larger by absolute
-    /// value.
+    /// pre: neither box is empty; coordinates are finite; no vector of a DirectionBox is zero. `reach`: no coordinate
+    /// that is tested is larger by absolute value.
     Shaft(const Box& receivers, const Box& lights, double reach) : Shaft(receivers, lights, false, reach) {}
     Shaft(const Box& receivers, const DirectionBox& lights, double reach) : Shaft(receivers, lights.box, true, reach) {}
 
-    /// Leaves out what is below the horizon of every receiver: where dot(normal, x - p) < 0. pre: `normal` is not zero
-    void cut_below(const glm::vec3& normal, const Box& receivers) {
-        const glm::dvec3 n = glm::dvec3(normal) / glm::length(glm::dvec3(normal));
-        add(-n, farthest(receivers, -n));
+    /// Leaves out what is lower than both all receivers and all lights, or `least`, whichever is higher of these two:
+    /// for where lights that are lower along `normal` need not be hidden. Distant lights count as no lower than the
+    /// receivers. pre: `normal` is not zero
+    void cut_below(const glm::vec3& normal, double least, const Box& receivers, const Box& lights) {
+        lower_limit(normal, detail::smaller(lowest(receivers, glm::dvec3(normal)),
+                                            detail::larger(lowest(lights, glm::dvec3(normal)), least)));
     }
+    void cut_below(const glm::vec3& normal, double, const Box& receivers, const DirectionBox&) {
+        lower_limit(normal, lowest(receivers, glm::dvec3(normal)));
+    }
+
+    /// The least dot(normal, x) in a box.
+    static double lowest(const Box& box, const glm::dvec3& normal) { return -farthest(box, -normal); }
 
     /// False only if no point between `a` and `b` lies in the shaft.
     bool may_hold(const glm::vec3& a, const glm::vec3& b) const {
@@ -104,11 +112,21 @@ private:
                     // A line that has a corner beyond it, by more than rounding, touches only one of them.
                     const double limit = distant ? farthest(receivers, outward) : farthest(receivers, lights, outward);
                     if (limit > here + 0.5 * slack_) continue;
-                    if (distant && farthest(lights, outward) > 1e-12) continue;
+                    if (distant && farthest(lights, outward) > 1e-12 * nearest_length(lights)) continue;
                     add(outward, limit);
                 }
             }
         }
+    }
+
+    /// Of the vectors of a box the length of the shortest.
+    static double nearest_length(const Box& box) {
+        return std::sqrt(min_distance2({glm::dvec3(box.lo), glm::dvec3(box.hi)}));
+    }
+
+    void lower_limit(const glm::vec3& normal, double least) {
+        const double length = glm::length(glm::dvec3(normal));
+        add(-glm::dvec3(normal) / length, -least / length);
     }
 
     static double farthest(const Box& box, const glm::dvec3& direction) {

@@ -8,7 +8,6 @@
 
 #include <glm/vec3.hpp>
 
-#include "../core/assertion.hpp"
 #include "../core/box.hpp"
 #include "flood.hpp"
 #include "oracle.hpp"
@@ -26,12 +25,13 @@ public:
         for (Entry& e : entries_) e.answer = Answer::none;
         count_ = 0;
     }
-    const ReceiverBox& receivers() const { return receivers_; }
 
-    /// True only if no light of `lights`, a Box or a DirectionBox, is visible from any of the receivers. `hidden`: a
-    /// HiddenLights, always the same between two calls of `start`.
+    /// True only if no light of `lights`, a Box or a DirectionBox, is visible from `receiver`. Proved from the group if
+    /// that has it: its rays start in the group's box, and it has the group's horizon, if that has one; else from the
+    /// receiver itself, and not remembered. `hidden`: a HiddenLights, always the same between two calls of `start`.
     template <class Hidden, class Lights>
-    bool hides(const Hidden& hidden, const Lights& lights) {
+    bool hides(const Hidden& hidden, const ReceiverBox& receiver, const Lights& lights) {
+        if (!has(receiver)) return hidden.hides(receiver, lights);
         constexpr bool distant = std::same_as<Lights, DirectionBox>;
         const Box& box = box_of_lights(lights);
         Entry* entry = find(box, distant);
@@ -50,6 +50,13 @@ private:
         bool distant = false;
         Answer answer = Answer::none;
     };
+
+    bool has(const ReceiverBox& receiver) const {
+        if (!contains(receivers_.box, receiver.box)) return false;
+        if (!receivers_.horizon) return true;
+        return receiver.horizon && receiver.horizon->normal == receivers_.horizon->normal &&
+               contains(receivers_.horizon->positions, receiver.horizon->positions);
+    }
 
     static const Box& box_of_lights(const Box& lights) { return lights; }
     static const Box& box_of_lights(const DirectionBox& lights) { return lights.box; }
