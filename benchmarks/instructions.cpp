@@ -2,6 +2,7 @@
 /// it takes: see instructions.sh, which prints them. Prints the number of shadow rays.
 
 #include <cstdio>
+#include <exception>
 
 #include <CLI/CLI.hpp>
 #include <lightcuts/product/gather.hpp>
@@ -60,10 +61,17 @@ int main(int argc, char** argv) {
     app.add_option("--width", width, "of the picture, pixels");
     app.add_option("--height", height, "of the picture, pixels");
     app.add_flag("--alone", alone, "points one by one, not in groups that advance side by side");
-    app.add_flag("--gather", gather, "each point as a sum over one gather point, by multidimensional lightcuts");
+    app.add_flag(
+        "--gather", gather,
+        "each point as a sum over one gather point, by multidimensional lightcuts; not with clamping by radiance");
     CLI11_PARSE(app, argc, argv);
     const Way way = gather ? Way::as_gather_points : alone ? Way::one_by_one : Way::groups;
-    const Workload work(scene, width, height);
-    std::printf("%llu\n", static_cast<unsigned long long>(shade_receivers(work, way)));
+    try {
+        const Workload work(scene, width, height);
+        std::printf("%llu\n", static_cast<unsigned long long>(shade_receivers(work, way)));
+    } catch (const std::exception& e) {
+        std::fprintf(stderr, "bench-instructions: %s\n", e.what());
+        return 1;
+    }
     return 0;
 }
