@@ -144,7 +144,7 @@ TEST(Cone, MergeHoldsSampledDirections) {
 
 TEST(Cone, MergeIsMinimal) {
     Draw draw(5);
-    for (int i = 0; i < 100000; ++i) {
+    for (int i = 0; i < 1000000; ++i) {
         const Cone a = random_cone(draw);
         const Cone b = partner_of(a, draw);
         const double between = angle_between(glm::dvec3(a.axis), glm::dvec3(b.axis));

@@ -113,13 +113,18 @@ inline Cone merge(const Cone& a, const Cone& b) {
     // The middle of the merged cone lies between the axes, nearer to that of the wider cone: at u + v if both are as
     // wide, and by tan((beta_a - beta_b) / 2) / tan(angle / 2) of the way from there to u.
     const glm::dvec3 across = u - v;
+    const double across2 = dot(across, across);
     glm::dvec3 middle = u + v;
     double middle2 = dot(middle, middle);
-    if (middle2 < 1e-28) {  // opposite
-        middle = perpendicular(u);
-        middle2 = 1.0;
+    if (middle2 < 1e-6) {
+        // Nearly opposite: what is left of the sum along the axes is rounding.
+        middle -= across * (dot(middle, across) / across2);
+        middle2 = dot(middle, middle);
+        if (middle2 < 1e-28) {
+            middle = perpendicular(u);
+            middle2 = 1.0;
+        }
     }
-    const double across2 = dot(across, across);
     if (sin2_a != sin2_b && across2 > 0.0) {
         const double tan_a = std::sqrt(sin2_a / (1.0 - sin2_a)), tan_b = std::sqrt(sin2_b / (1.0 - sin2_b));
         const double tan_surplus = (tan_a - tan_b) / (1.0 + tan_a * tan_b);
