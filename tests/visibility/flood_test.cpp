@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -128,6 +129,15 @@ bool check(const Case& scene, const OccluderMesh& mesh, const ReceiverBox& recei
     return false;
 }
 
+/// Whether the flood from the first triangle between the middles hides the lights. pre: there is one
+template <class Lights>
+bool hides_from_first(const TriangleSoup& soup, const Flood& flood, const ReceiverBox& receivers,
+                      const Lights& lights) {
+    const Flood::Segment segment = Flood::start_segment(receivers, lights);
+    return flood.hides(receivers, lights,
+                       soup.hits(segment.from, segment.way() * (segment.distant ? 100.0 : 1.0)).front());
+}
+
 class Floods : public testing::TestWithParam<int> {};
 
 TEST_P(Floods, HideOnlyWhatEveryRayFindsBlocked) {
@@ -176,12 +186,10 @@ TEST(Flood, ClosedRoomsHideAllThatIsOutside) {
         if (std::fabs(to.x) < 2.2 && std::fabs(to.y) < 2.2 && std::fabs(to.z) < 2.2) continue;
         const ReceiverBox receivers{box_of(glm::vec3(from))};
         const Box lights{glm::vec3(to - 0.1), glm::vec3(to + 0.1)};
-        const Flood::Segment middle = Flood::start_segment(receivers, lights);
-        EXPECT_TRUE(flood.hides(receivers, lights, soup.hits(middle.from, middle.way()).front())) << i;
+        EXPECT_TRUE(hides_from_first(soup, flood, receivers, lights)) << i;
         const glm::vec3 direction(random.on_sphere());
         const DirectionBox sky{merge(box_of(direction), box_of(direction + 0.01f))};
-        const Flood::Segment up = Flood::start_segment(receivers, sky);
-        EXPECT_TRUE(flood.hides(receivers, sky, soup.hits(up.from, 100.0 * up.way()).front())) << i;
+        EXPECT_TRUE(hides_from_first(soup, flood, receivers, sky)) << i;
     }
 }
 
@@ -223,15 +231,11 @@ TEST(Flood, ReceiversAllHaveToBeHidden) {
     const OccluderMesh mesh = mesh_of(soup);
     const Flood flood(mesh);
     const Box lights{{-0.1f, -0.1f, -1.0f}, {0.1f, 0.1f, -0.9f}};
-    const auto first = [&](const ReceiverBox& r) {
-        const Flood::Segment middle = Flood::start_segment(r, lights);
-        return soup.hits(middle.from, middle.way()).front();
-    };
     // Seen from height 1, lights at depth 1 and the sheet half-way, of half the width between receiver and light.
     const ReceiverBox near{{{-1.5f, -1.5f, 0.9f}, {1.5f, 1.5f, 1.0f}}},
         wide{{{-2.5f, -1.5f, 0.9f}, {2.5f, 1.5f, 1.0f}}};
-    EXPECT_TRUE(flood.hides(near, lights, first(near)));
-    EXPECT_FALSE(flood.hides(wide, lights, first(wide)));
+    EXPECT_TRUE(hides_from_first(soup, flood, near, lights));
+    EXPECT_FALSE(hides_from_first(soup, flood, wide, lights));
 }
 
 TEST(Flood, NothingBelowTheHorizonNeedsToBeHidden) {
@@ -243,13 +247,9 @@ TEST(Flood, NothingBelowTheHorizonNeedsToBeHidden) {
     const Flood flood(mesh);
     const Box lights{{3.0f, -1.0f, -1.0f}, {3.5f, 1.0f, 2.0f}};
     ReceiverBox receivers{box_of({0.0f, 0.0f, 0.001f})};
-    const auto start = [&] {
-        const Flood::Segment middle = Flood::start_segment(receivers, lights);
-        return soup.hits(middle.from, middle.way()).front();
-    };
-    EXPECT_FALSE(flood.hides(receivers, lights, start()));
+    EXPECT_FALSE(hides_from_first(soup, flood, receivers, lights));
     receivers.horizon = Horizon{{0.0f, 0.0f, 1.0f}, box_of({0.0f, 0.0f, 0.0f})};
-    EXPECT_TRUE(flood.hides(receivers, lights, start()));
+    EXPECT_TRUE(hides_from_first(soup, flood, receivers, lights));
 }
 
 TEST(Flood, WhatIsLitFromBelowTheShadowOriginIsNotHidden) {
@@ -260,10 +260,7 @@ TEST(Flood, WhatIsLitFromBelowTheShadowOriginIsNotHidden) {
         soup.add_sheet(random, {0.5, -9, 0.8 * static_cast<double>(lift)}, {0, 18, 0}, {0, 0, 9}, 3, 3);
         const OccluderMesh mesh = mesh_of(soup);
         const ReceiverBox receivers{box_of({0.0f, 0.0f, lift}), Horizon{{0.0f, 0.0f, 1.0f}, box_of(glm::vec3(0.0f))}};
-        const auto hides = [&](const Box& lights) {
-            const Flood::Segment middle = Flood::start_segment(receivers, lights);
-            return Flood(mesh).hides(receivers, lights, soup.hits(middle.from, middle.way()).front());
-        };
+        const auto hides = [&](const Box& lights) { return hides_from_first(soup, Flood(mesh), receivers, lights); };
         EXPECT_FALSE(hides({{1.0f, 0.0f, 0.5f * lift}, {1.0f, 0.0f, 1.0f}}));
         EXPECT_TRUE(hides({{1.0f, 0.0f, 0.9f * lift}, {1.0f, 0.0f, 1.0f}}));
     }
@@ -291,14 +288,33 @@ TEST(Flood, LongWalksAreGivenUp) {
     const ReceiverBox receivers{box_of({0.0f, 0.0f, 1.0f})};
     const auto hides = [&](float width, const FloodOptions& options) {
         const Box lights{{-width, -width, -1.0f}, {width, width, -0.9f}};
-        const Flood::Segment middle = Flood::start_segment(receivers, lights);
-        return Flood(mesh, options).hides(receivers, lights, soup.hits(middle.from, middle.way()).front());
+        return hides_from_first(soup, Flood(mesh, options), receivers, lights);
     };
     EXPECT_TRUE(hides(0.1f, {}));
     EXPECT_TRUE(hides(0.3f, {}));
     EXPECT_FALSE(hides(0.3f, {.max_triangles = 20}));
     EXPECT_FALSE(hides(1.5f, {.max_triangles = 512})) << "some two thousand triangles";
     EXPECT_FALSE(hides(0.1f, {.max_triangles = 1}));
+}
+
+TEST(Flood, WhatRaysThatEndOffTheirLightReachIsNotHidden) {
+    // Rays may end .3 off a light: past the wall behind which it is, or, at the horizon, below it.
+    TriangleSoup soup;
+    Random random(8);
+    soup.add_sheet(random, {1, -9, -0.1}, {0, 18, 0}, {0, 0, 9}, 3, 3);
+    const OccluderMesh mesh = mesh_of(soup);
+    const Flood ends(mesh, {.end_distance = 0.3}), exact(mesh);
+    const ReceiverBox receivers{box_of({0.0f, 0.0f, 0.5f})};
+    const auto both = [&](const ReceiverBox& r, const glm::vec3& light) {
+        const Box lights = box_of(light);
+        return std::pair(hides_from_first(soup, exact, r, lights), hides_from_first(soup, ends, r, lights));
+    };
+    EXPECT_EQ(both(receivers, {2.0f, 0.0f, 0.5f}), std::pair(true, true));
+    EXPECT_EQ(both(receivers, {1.2f, 0.0f, 0.5f}), std::pair(true, false));
+    // The wall begins .1 below the light.
+    const ReceiverBox above{receivers.box, Horizon{{0.0f, 0.0f, 1.0f}, box_of({0.0f, 0.0f, 0.0f})}};
+    EXPECT_EQ(both(above, {2.0f, 0.0f, 0.01f}), std::pair(true, true)) << "the ray falls from .5";
+    EXPECT_EQ(both({box_of({0.0f, 0.0f, 0.02f}), above.horizon}, {2.0f, 0.0f, 0.01f}), std::pair(true, false));
 }
 
 TEST(Flood, WhatIsNoStartProvesNothing) {

@@ -1,12 +1,9 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include <lightcuts/core/assertion.hpp>
-#include <lightcuts/core/box.hpp>
-#include <lightcuts/core/rounding.hpp>
 #include <lightcuts/visibility/hidden_lights.hpp>
 #include <lightcuts/visibility/shared_proofs.hpp>
 
@@ -41,40 +38,30 @@ public:
     /// `mesh`: opaque_mesh(scene). All are referred to.
     ProvingOracle(const Scene& scene, const RayScene& rays, const lightcuts::OccluderMesh& mesh,
                   lightcuts::SharedProofs* group = nullptr)
-        : OpaqueOracle(scene, rays), hidden_(mesh, FirstTriangle(rays)), group_(group) {
+        : OpaqueOracle(scene, rays), hidden_(mesh, FirstTriangle(rays), {.end_distance = end_distance(scene, mesh)}),
+          group_(group) {
         LIGHTCUTS_ASSERT(scene.is_still());
-        // Shadow rays end off the surfaces that lights lie on, and where they enter the spheres that lights lie in.
-        ends_off_ = 1e-5 * mesh.reach();
-        for (const auto& sphere : scene.spheres)
-            ends_off_ = std::max(ends_off_, 2.0 * static_cast<double>(sphere.radius));
     }
 
-    template <class M>
-    bool hides(const lightcuts::Receiver<M>& receiver, const lightcuts::Box& lights) const {
-        lightcuts::Box ends;
-        for (int axis = 0; axis < 3; ++axis) {
-            ends.lo[axis] = lightcuts::round_down(static_cast<double>(lights.lo[axis]) - ends_off_);
-            ends.hi[axis] = lightcuts::round_up(static_cast<double>(lights.hi[axis]) + ends_off_);
-        }
-        return prove(receiver, ends);
-    }
-    template <class M>
-    bool hides(const lightcuts::Receiver<M>& receiver, const lightcuts::DirectionBox& lights) const {
-        return prove(receiver, lights);
-    }
-
-private:
+    /// `lights`: a lightcuts::Box or DirectionBox.
     template <class M, class Lights>
-    bool prove(const lightcuts::Receiver<M>& receiver, const Lights& lights) const {
+    bool hides(const lightcuts::Receiver<M>& receiver, const Lights& lights) const {
         // Asked from behind of what reflects nothing from there.
         const std::optional<glm::vec3> normal = receiver.material.horizon();
         if (normal && glm::dot(*normal, receiver.shadow_origin - receiver.position) < 0.0f) return true;
         return group_ ? group_->hides(hidden_, lightcuts::box_of(receiver), lights) : hidden_.hides(receiver, lights);
     }
 
+private:
+    /// Shadow rays end off the surfaces that lights lie on, and where they enter the spheres that lights lie in.
+    static double end_distance(const Scene& scene, const lightcuts::OccluderMesh& mesh) {
+        double largest = 1e-5 * mesh.reach();
+        for (const auto& sphere : scene.spheres) largest = std::max(largest, 2.0 * static_cast<double>(sphere.radius));
+        return largest;
+    }
+
     lightcuts::HiddenLights<FirstTriangle> hidden_;
     lightcuts::SharedProofs* group_;
-    double ends_off_ = 0.0;  ///< the largest distance of where a ray ends from its light
 };
 
 }  // namespace render

@@ -37,6 +37,9 @@ struct FloodOptions {
     /// Shadow rays may end before their light by this part of their length, below 1: what is nearer to a light hides
     /// nothing.
     double untraced_end = 1e-3;
+    /// Shadow rays may end so far from their light, in any direction: off the surface that it lies on, or where they
+    /// enter the sphere that it lies in. World units, not negative.
+    double end_distance = 0.0;
     /// A walk over more triangles is given up; from 1 to `Flood::most_triangles`.
     std::uint32_t max_triangles = 400;
 };
@@ -57,6 +60,7 @@ public:
 
     explicit Flood(const OccluderMesh& mesh, const FloodOptions& options = {}) : mesh_(mesh), options_(options) {
         LIGHTCUTS_ASSERT(options.margin >= 1e-12 && options.untraced_end >= 0.0 && options.untraced_end < 1.0);
+        LIGHTCUTS_ASSERT(options.end_distance >= 0.0);
         LIGHTCUTS_ASSERT(options.max_triangles >= 1 && options.max_triangles <= most_triangles);
     }
     /// It would refer to what is gone.
@@ -67,11 +71,11 @@ public:
     /// middles of the boxes crosses; if it does not, the answer is false. threads: safe. cost: some 30 ns for each
     /// triangle that the walk meets; allocates nothing
     bool hides(const ReceiverBox& receivers, const Box& lights, Index start) const {
-        return walk(receivers, lights, lights, start);
+        return walk(receivers, lights, grown(lights), start);
     }
     /// The same for every ray in a direction of `lights`.
     bool hides(const ReceiverBox& receivers, const DirectionBox& lights, Index start) const {
-        return walk(receivers, lights, lights.box, start);
+        return walk(receivers, lights, lights, start);
     }
 
     /// True if there are no receivers or no lights.
@@ -163,7 +167,7 @@ private:
     struct Problem {
         const ReceiverBox& receivers;
         const Lights& lights;
-        Box light_ends;  ///< positions of lights and where rays to them may end; or directions
+        Box light_ends;  ///< where rays to lights may end, and what is nearer than their untraced ends; or directions
         double reach;
         double margin;  ///< distance
         Shaft shaft;
@@ -171,10 +175,14 @@ private:
 
     static constexpr bool is_distant(const DirectionBox&) { return true; }
     static constexpr bool is_distant(const Box&) { return false; }
+    static const Box& box_of_lights(const DirectionBox& lights) { return lights.box; }
+    static const Box& box_of_lights(const Box& lights) { return lights; }
 
+    /// `ends`: where rays to `lights` may end; or the directions themselves.
     template <class Lights>
-    bool walk(const ReceiverBox& receivers, const Lights& lights, const Box& box, Index start) const {
+    bool walk(const ReceiverBox& receivers, const Lights& lights, const Lights& ends, Index start) const {
         if (start >= mesh_.size() || is_empty_problem(receivers, lights)) return false;
+        const Box& box = box_of_lights(ends);
         // From one direction to its opposite there is no way but through none.
         if (is_distant(lights) && !(min_distance2({glm::dvec3(box.lo), glm::dvec3(box.hi)}) > 1e-4)) return false;
         double reach = mesh_.reach();
@@ -188,11 +196,13 @@ private:
                                 is_distant(lights) ? box : with_ends(receivers.box, box),
                                 reach,
                                 options_.margin * reach,
-                                Shaft(receivers.box, lights, reach)};
+                                Shaft(receivers.box, ends, reach)};
         if (receivers.horizon) {
-            const Horizon& horizon = *receivers.horizon;
-            problem.shaft.cut_below(horizon.normal, Shaft::lowest(horizon.positions, glm::dvec3(horizon.normal)),
-                                    receivers.box, lights);
+            const glm::dvec3 normal(receivers.horizon->normal);
+            // A ray to a light above the horizon may end below it.
+            const double least = Shaft::lowest(receivers.horizon->positions, normal) -
+                                 options_.end_distance * std::sqrt(detail::dot(normal, normal));
+            problem.shaft.cut_below(receivers.horizon->normal, least, receivers.box, ends);
         }
         if (!blocks_start_segment(problem, start)) return false;
 
@@ -368,6 +378,17 @@ private:
     static double magnitude(const Box& box, int axis) {
         return detail::larger(std::fabs(static_cast<double>(box.lo[axis])),
                               std::fabs(static_cast<double>(box.hi[axis])));
+    }
+
+    /// The box of where rays to lights may end.
+    Box grown(const Box& lights) const {
+        if (options_.end_distance == 0.0 || is_empty(lights)) return lights;
+        Box ends;
+        for (int axis = 0; axis < 3; ++axis) {
+            ends.lo[axis] = round_down(static_cast<double>(lights.lo[axis]) - options_.end_distance);
+            ends.hi[axis] = round_up(static_cast<double>(lights.hi[axis]) + options_.end_distance);
+        }
+        return ends;
     }
 
     /// The box of lights and of what is nearer to them than the untraced end of a ray from a receiver.
