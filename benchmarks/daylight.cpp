@@ -20,6 +20,7 @@
 #include <nlohmann/json.hpp>
 
 #include "dense_product.hpp"
+#include "error_sum.hpp"
 #include "figures.hpp"
 #include "fixed_patches.hpp"
 #include "io/load_scene.hpp"
@@ -28,6 +29,7 @@
 namespace {
 
 using namespace daylighting;
+using benchmark::ErrorSum;
 using benchmark::FixedPatches;
 
 /// A year by a formula, at 48 degrees north: clear and cloudy hours by turns.
@@ -70,17 +72,6 @@ struct Site {
     Site(const SitePlan& place, double spacing)
         : scene(render::load_scene(place.scene)), rays(scene),
           sensors(sensors_of({place.grid.corner, place.grid.opposite, spacing}, UpAxis::y)) {}
-};
-
-/// Squares of errors and of what they are errors of.
-struct ErrorSum {
-    double squared = 0.0, reference = 0.0;
-
-    void add(double value, double exact) {
-        squared += (value - exact) * (value - exact);
-        reference += exact * exact;
-    }
-    double relative() const { return std::sqrt(squared / reference); }
 };
 
 constexpr std::array cut_errors = {0.5, 0.4, 0.3, 0.2, 0.1, 0.05};

@@ -22,6 +22,7 @@
 #include <lightcuts/piecewise/gain.hpp>
 
 #include "cube_map.hpp"
+#include "error_sum.hpp"
 #include "haar.hpp"
 #include "spherical_harmonics.hpp"
 #include "timing.hpp"
@@ -266,16 +267,6 @@ nlohmann::json terms_at_equal_error(const Peers& peers, const std::string& name,
     return rows;
 }
 
-/// Root mean squares of errors of sums, over that of the sums.
-struct SumErrors {
-    double squared = 0, reference = 0;
-    void add(double value, double exact) {
-        squared += (value - exact) * (value - exact);
-        reference += exact * exact;
-    }
-    double relative() const { return std::sqrt(squared / reference); }
-};
-
 /// The sum over the texels of a cut times a function whose means at all nodes are known.
 double sum_with_means(const Cut& cut, const std::vector<float>& means) {
     double sum = 0;
@@ -297,7 +288,7 @@ nlohmann::json pairs_at_equal_terms(const Peers& peers, const std::string& name,
     nlohmann::json rows;
     const auto report = [&](const char* peer, std::size_t terms, std::size_t bytes, double first_error,
                             double second_error, const auto& sum) {
-        SumErrors errors;
+        ErrorSum errors;
         for (std::size_t k = 0; k < count; ++k) errors.add(sum(k), exact_sum({&first[k], &second[k]}));
         const double ns = nanoseconds(runs, 20 * static_cast<int>(count), [&](int i) {
             sink += sum(static_cast<std::size_t>(i) % count);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <span>
@@ -17,6 +16,7 @@
 #include <lightcuts/tree/build/divide.hpp>
 #include <lightcuts/tree/leaf_order.hpp>
 
+#include "error_sum.hpp"
 #include "figures.hpp"
 #include "rays/opaque_mesh.hpp"
 #include "rays/proving_oracle.hpp"
@@ -90,7 +90,8 @@ lightcuts::ReceiverBox box_of_group(const Workload& work, std::span<const std::u
 }
 
 struct Row {
-    double cut = 0, rays = 0, at_limit = 0, squares = 0, truth = 0, time = 0;
+    double cut = 0, rays = 0, at_limit = 0, time = 0;
+    ErrorSum error;
 };
 
 template <class Forest>
@@ -131,15 +132,13 @@ void measure(const Workload& work, const Forest& forest, std::size_t limit) {
             row.rays += static_cast<double>(result.queries);
             row.at_limit += max_cut > 0 && result.cut_size >= max_cut ? 1.0 : 0.0;
             for (int c = 0; c < 3; ++c) {
-                const double t = static_cast<double>(truth[i][c]), e = static_cast<double>(result.radiance[c]) - t;
-                row.squares += e * e;
-                row.truth += t * t;
+                row.error.add(static_cast<double>(result.radiance[c]), static_cast<double>(truth[i][c]));
             }
         }
         const auto count = static_cast<double>(work.receivers().size());
         std::printf("  %-28s cut %7.1f  rays %7.1f  at the limit %5.1f %%  relative RMSE %5.2f %%  %8.1f us a point\n",
-                    name, row.cut / count, row.rays / count, 100.0 * row.at_limit / count,
-                    100.0 * std::sqrt(row.squares / row.truth), 1e6 * row.time / count);
+                    name, row.cut / count, row.rays / count, 100.0 * row.at_limit / count, 100.0 * row.error.relative(),
+                    1e6 * row.time / count);
         std::fflush(stdout);
     };
     const lightcuts::TwoStageBounds usual;

@@ -11,6 +11,7 @@
 #include <render/surfaces/surface_material.hpp>
 
 #include "cluster_lights.hpp"
+#include "glossy_light.hpp"
 #include "glossy_lobe.hpp"
 #include "lit_sum.hpp"
 
@@ -105,38 +106,16 @@ glm::vec3 BounceShader::shade(const SurfacePoint& point, const BounceLight& ligh
     const render::SurfaceMaterial material(GlossyLobe::alone(point));
     LitSum sum(material);
     const GlossyLobe lobe(point, lobes.gloss_detail);
-    // A cluster's direction, and its radius as an angle.
-    struct View {
-        glm::vec3 direction;
-        float angle;
-    };
     const auto view_of = [&](const glm::vec3& place, float radius) {
         const glm::vec3 way = place - from;
         const float distance = std::max(glm::length(way), 1e-30f);
-        return View{way / distance, std::atan(radius / distance)};
+        return SeenCluster{way / distance, std::atan(radius / distance)};
     };
-    for (std::size_t i = 0; i < lights.size(); ++i) {
-        const View whole = view_of(lights.where(i), lights.radius(i));
-        if (!lobe.is_coarse(whole.angle, whole.direction)) {
-            sum.add(whole.direction, lights.power(i, corners));
-            continue;
-        }
-        for (std::size_t k = lights.begin(i); k < lights.end(i); ++k) {
-            const float visible = glm::dot(lights.node(k).visible, corners);
-            scratch.open.assign(1, lights.node(k).node);
-            while (!scratch.open.empty()) {
-                const std::uint32_t node = scratch.open.back();
-                scratch.open.pop_back();
-                const View at = view_of(patches.clusters[node].position, patches.clusters[node].radius);
-                if (!patches.tree.is_leaf(node) && lobe.is_coarse(at.angle, at.direction)) {
-                    scratch.open.push_back(patches.tree.left(node));
-                    scratch.open.push_back(patches.tree.right(node));
-                } else {
-                    sum.add(at.direction, light.sum(node) * visible);
-                }
-            }
-        }
-    }
+    add_glossy_light(
+        sum, lobe, lights, corners, patches.tree,
+        [&](std::size_t i) { return view_of(lights.where(i), lights.radius(i)); },
+        [&](std::uint32_t node) { return view_of(patches.clusters[node].position, patches.clusters[node].radius); },
+        [&](std::uint32_t node) { return light.sum(node); }, scratch.open);
     return diffuse + sum.result();
 }
 

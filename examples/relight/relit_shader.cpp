@@ -10,6 +10,7 @@
 #include <render/surfaces/surface_material.hpp>
 
 #include "cluster_lights.hpp"
+#include "glossy_light.hpp"
 #include "glossy_lobe.hpp"
 #include "lit_sum.hpp"
 
@@ -108,31 +109,18 @@ glm::vec3 RelitShader::shade(const SurfacePoint& point, const Illumination& ligh
     diffuse *= static_cast<float>(std::numbers::inv_pi);
     if (!is_glossy(point)) return diffuse;
     ++scratch.statistics.glossy;
-    const lightcuts::ClusterTree& tree = light.directions().tree;
     const render::SurfaceMaterial material(GlossyLobe::alone(point));
     LitSum sum(material);
     const GlossyLobe lobe(point, options.gloss_detail);
-    for (std::size_t i = 0; i < lights.size(); ++i) {
-        if (!lobe.is_coarse(lights.radius(i), lights.where(i))) {
-            sum.add(lights.where(i), lights.power(i, corners));
-            continue;
-        }
-        for (std::size_t k = lights.begin(i); k < lights.end(i); ++k) {
-            const float visible = glm::dot(lights.node(k).visible, corners);
-            scratch.open.assign(1, lights.node(k).node);
-            while (!scratch.open.empty()) {
-                const std::uint32_t node = scratch.open.back();
-                scratch.open.pop_back();
-                const Illumination::Light& at = light.light(node);
-                if (!tree.is_leaf(node) && lobe.is_coarse(at.radius, at.direction)) {
-                    scratch.open.push_back(tree.left(node));
-                    scratch.open.push_back(tree.right(node));
-                } else {
-                    sum.add(at.direction, at.power * visible);
-                }
-            }
-        }
-    }
+    add_glossy_light(
+        sum, lobe, lights, corners, light.directions().tree,
+        [&](std::size_t i) {
+            return SeenCluster{lights.where(i), lights.radius(i)};
+        },
+        [&](std::uint32_t node) {
+            return SeenCluster{light.light(node).direction, light.light(node).radius};
+        },
+        [&](std::uint32_t node) { return light.light(node).power; }, scratch.open);
     const glm::vec3 result = sum.result();
     scratch.statistics.directions += sum.evaluated();
     return diffuse + result;

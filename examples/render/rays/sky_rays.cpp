@@ -8,29 +8,25 @@ namespace render {
 
 void SkyRays::look(const RayScene& rays, const glm::vec3& from, std::span<const glm::vec3> directions,
                    std::span<float> shares) {
-    if (rays.transmissive()) {
-        for (std::size_t i = 0; i < directions.size(); ++i) {
-            const glm::vec3 passed = rays.to_infinity(from, directions[i]);
-            shares[i] = (passed.x + passed.y + passed.z) / 3.0f;
-        }
-        return;
-    }
-    queries_.resize(directions.size());
-    for (std::size_t i = 0; i < directions.size(); ++i) queries_[i] = {from, 0, directions[i], 0, 0, true};
-    lightcuts::EmbreeOracle(rays.embree_scene()).many(queries_, shares);
+    ask(rays, from, directions, true, shares);
 }
 
 void SkyRays::look_at(const RayScene& rays, const glm::vec3& from, std::span<const glm::vec3> places,
                       std::span<float> shares) {
+    ask(rays, from, places, false, shares);
+}
+
+void SkyRays::ask(const RayScene& rays, const glm::vec3& from, std::span<const glm::vec3> to, bool distant,
+                  std::span<float> shares) {
     if (rays.transmissive()) {
-        for (std::size_t i = 0; i < places.size(); ++i) {
-            const glm::vec3 passed = rays.to_point(from, places[i]);
+        for (std::size_t i = 0; i < to.size(); ++i) {
+            const glm::vec3 passed = distant ? rays.to_infinity(from, to[i]) : rays.to_point(from, to[i]);
             shares[i] = (passed.x + passed.y + passed.z) / 3.0f;
         }
         return;
     }
-    queries_.resize(places.size());
-    for (std::size_t i = 0; i < places.size(); ++i) queries_[i] = {from, 0, places[i], 0, 0, false};
+    queries_.resize(to.size());
+    for (std::size_t i = 0; i < to.size(); ++i) queries_[i] = {from, 0, to[i], 0, 0, distant};
     lightcuts::EmbreeOracle(rays.embree_scene(), 1.0f - RayScene::shadow_ray_end).many(queries_, shares);
 }
 

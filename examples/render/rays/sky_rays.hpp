@@ -24,6 +24,9 @@ public:
                  std::span<float> shares);
 
 private:
+    void ask(const RayScene& rays, const glm::vec3& from, std::span<const glm::vec3> to, bool distant,
+             std::span<float> shares);
+
     std::vector<lightcuts::VisibilityQuery> queries_;
 };
 
