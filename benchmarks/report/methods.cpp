@@ -23,7 +23,8 @@ void error_ratio_of_large_cuts(Options& options, double value) {
     options.max_cut = 4000;
 }
 
-/// Sums over pairs clamp by transfer alone: they are compared with the sum that does not clamp.
+/// Sums over pairs clamp by transfer, or by the share of a pixel rather than of a point: they are compared with the sum
+/// that does not clamp.
 void error_ratio_of_pixels(Options& options, double value) {
     options.error_ratio = static_cast<float>(value);
     options.clamp = {};

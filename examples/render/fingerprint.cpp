@@ -67,7 +67,8 @@ void add_options(Fingerprint& print, const Options& o) {
     add("--sky-lights", o.sky_lights);
     add("--ground", o.ground);
     add("--indirect", o.indirect);
-    add("--clamp", o.clamp.is_automatic() ? "auto" : text_of(o.clamp.radiance));
+    const bool by_share = o.sums_pixels() && o.clamping().is_automatic();
+    add("--clamp", by_share ? "auto, by share" : o.clamp.is_automatic() ? "auto" : text_of(o.clamp.radiance));
     add("--clamp-ratio", o.clamp.ratio);
     add("--fog", o.fog);
     add("--fog-albedo", o.fog_albedo);

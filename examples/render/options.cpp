@@ -91,7 +91,10 @@ bool Options::is_given(const std::string& name) const { return contains(given, n
 
 bool Options::has_aov(const std::string& name) const { return contains(aovs, name); }
 
+bool Options::sums_pixels() const { return method == "multidimensional" || method == "unified-cut"; }
+
 lightcuts::ClampingOptions Options::clamping() const {
+    if (sums_pixels() && is_clamp_given() && clamp.is_automatic()) return clamp;
     return contains(clamping_methods(), method) ? clamp : lightcuts::ClampingOptions{};
 }
 

@@ -89,7 +89,12 @@ struct Options {
     bool is_given(const std::string& name) const;
     bool has_aov(const std::string& name) const;
 
-    /// What the method does to virtual lights: nothing if it is none of those that clamp.
+    /// The method shades a pixel's gather points at once: `multidimensional`, `unified-cut`.
+    bool sums_pixels() const;
+    /// `--clamp` or `--clamp-ratio` are on the command line.
+    bool is_clamp_given() const { return is_given("--clamp") || is_given("--clamp-ratio"); }
+    /// What the method does to virtual lights: nothing if it is none of those that clamp. Methods that sum pixels clamp
+    /// by share, and only if they are told to: else by transfer, where the eye's adaptation is known.
     lightcuts::ClampingOptions clamping() const;
     /// Virtual lights would be clamped, but not by this method.
     bool is_clamp_idle() const { return clamp.has_threshold() && !clamping().has_threshold(); }

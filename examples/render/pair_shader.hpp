@@ -5,7 +5,6 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <span>
 #include <utility>
@@ -39,7 +38,8 @@ public:
     PairShader(const Scene& scene, const RayScene& rays, std::unique_ptr<const Lights> lights, const Forest& forest,
                const Options& options)
         : scene_(scene), rays_(rays), lights_(std::move(lights)), forest_(forest),
-          clamps_(options.clamp.is_automatic()), shows_instants_(options.has_aov("instants")) {
+          clamps_by_transfer_(options.clamp.is_automatic() && !options.clamping().is_automatic()),
+          shows_instants_(options.has_aov("instants")) {
         product_.separate_points = options.method == "unified-cut";
         if (options.pair_sides == "sizes") product_.side_rule = lightcuts::SideRule::sizes;
         // A light of one instant is as many times as strong as there are instants, but lights few of a pixel's rays.
@@ -50,6 +50,7 @@ public:
         product_.cut.error_ratio = options.error_ratio;
         if (options.is_given("--max-cut")) product_.cut.max_cut = options.max_cut;
         product_.cut.seed = options.seed;
+        product_.cut.clamp = options.clamping();
         tree_.scene_diagonal = std::sqrt(lightcuts::diagonal2(bounding_box(scene.positions)));
         if constexpr (std::same_as<Lights, InstantSceneLights>) tree_.instants = forest.instants();
         adapt(options.adaptation.value_or(0.0f));
@@ -72,7 +73,7 @@ public:
             look_at(scene_.volume_lights);
             look_at(scene_.at_instants.volume_lights);
         }
-        if (clamps_ && radiance > 0.0f && strongest > 0.0f) {
+        if (clamps_by_transfer_ && radiance > 0.0f && strongest > 0.0f) {
             product_.cut.clamp.transfer = largest_share * radiance * rays_apart_ / strongest;
         }
     }
@@ -94,7 +95,7 @@ public:
             const lightcuts::AttenuatedBounds<lightcuts::UniformMedium, lightcuts::TwoStageBounds> bounds(
                 scene_.fog.medium, own.points.shadow_offset);
             const auto result = lightcuts::gather(forest_, own.trees, oracle, own.pairs, product, bounds);
-            shading = {result.radiance, result.error_bound, glm::vec3(std::numeric_limits<float>::infinity()),
+            shading = {result.radiance, result.error_bound, result.clamp_threshold,
                        result.cut_size, result.queries,     result.stop == lightcuts::StopReason::limit};
             shading.pairs = result.pairs;
         });
@@ -143,7 +144,7 @@ private:
     const RayScene& rays_;
     std::unique_ptr<const Lights> lights_;
     const Forest& forest_;  ///< of `lights_`
-    bool clamps_;
+    bool clamps_by_transfer_;
     bool shows_instants_;
     float rays_apart_ = 1.0f;  ///< one in so many of a pixel's eye rays is at the instant of a virtual light
     lightcuts::ProductOptions product_;

@@ -29,7 +29,7 @@ void add_fog(Scene& scene, const Options& options) {
 
 /// Only gather points that have an instant can be lit by lights that have one.
 void require_method_for_motion(const Scene& scene, const Options& options) {
-    if (options.method == "multidimensional" || options.method == "unified-cut") return;
+    if (options.sums_pixels()) return;
     const std::string way_out = "; give --method multidimensional, or --shutter 0";
     if (scene.at_instants.count() > 0) {
         throw usage_error("--method " + options.method + ": lights move while the shutter is open, and this method " +

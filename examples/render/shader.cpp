@@ -191,8 +191,7 @@ std::unique_ptr<Shader> make_shader(const Scene& scene, const RayScene& rays, co
     if (options.method == "stochastic-lightcuts") {
         return std::make_unique<EstimateShader<StochasticLightcuts>>(scene, rays, options);
     }
-    if (options.method == "multidimensional" || options.method == "unified-cut")
-        return make_multidimensional_shader(scene, rays, options);
+    if (options.sums_pixels()) return make_multidimensional_shader(scene, rays, options);
     auto lights = std::make_unique<const SceneLights>(scene, options);
     const SceneLights& trees = *lights;
     return trees.visit([&]<class F>(const F& forest) -> std::unique_ptr<Shader> {

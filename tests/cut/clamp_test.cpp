@@ -291,7 +291,7 @@ TEST(ClampedError, BoundsTheDifferenceOfTotalsWithThresholdsOfTheirOwn) {
             arriving.most.add(n.bound > 0.0f ? n.bound : n.estimate, n.lights);
         }
         const double truth = sum.total[0];
-        const double error = detail::clamped_error<float>(clamp, cut, arriving, [&](auto&& f) {
+        const double error = detail::clamped_error<float>(clamp, cut, arriving, 0.0, [&](auto&& f) {
             for (const Node& n : nodes) f(n.estimate, n.bound, n.lights);
         })[0];
         EXPECT_LE(std::fabs(truth - cut.total[0]), error + 1e-6 * (truth + cut.total[0])) << i;

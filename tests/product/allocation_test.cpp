@@ -14,9 +14,12 @@ TEST(GatherAllocation, DoesNotHappenOnceTreesAndScratchAreWarm) {
     Room<V> room(1);
     const auto still = room.oriented(300);
     const auto moving = at_instants(room.omni(300), 4);
+    std::vector<InstantLight<VirtualPointLight<V>>> moving_virtual;
+    for (std::uint32_t i = 0; i < still.size(); ++i) moving_virtual.push_back({{still[i]}, i % 4});
     const LightTree still_tree(still), other_tree(still);
     const LightTree moving_tree(moving);
-    const LightForest forest(still_tree, moving_tree);
+    const LightTree virtual_tree(moving_virtual);
+    const LightForest forest(still_tree, moving_tree, virtual_tree);
     const TimedForest timed(forest, 4);
     const auto occluders = room.occluders();
     const ScalarOccluders scalar{occluders};
@@ -27,11 +30,13 @@ TEST(GatherAllocation, DoesNotHappenOnceTreesAndScratchAreWarm) {
     gather_scratch_of<decltype(timed)> one, other;
     gather_scratch_of<decltype(other_tree)> still_scratch;
     const ProductOptions redraw{.redraw = true};
+    const ProductOptions clamped{.cut = {.clamp = automatic_clamping}};
     const auto everything = [&] {
         points.build(diffuse, glossy, {.instants = 4});
         gather(timed, points, scalar, one);
         gather(timed, points, batched, other);
         gather(timed, points, batched, other, redraw);
+        gather(timed, points, batched, other, clamped);
         gather(other_tree, points, batched, still_scratch);
     };
     everything();

@@ -436,14 +436,5 @@ TEST(Gather, DegenerateSumsAreRight) {
     EXPECT_THROW(gather(tree, points), invalid_input);
 }
 
-TEST(Gather, RefusesClampingByShare) {
-    Room<V> room(2);
-    const auto lights = room.oriented(50);
-    const LightTree tree(lights);
-    const auto no_points = std::vector<DiffusePoint>{};
-    EXPECT_THROW(gather(tree, no_points, AlwaysVisible{}, ProductOptions{.cut = {.clamp = automatic_clamping}}),
-                 invalid_input);
-}
-
 }  // namespace
 }  // namespace lightcuts::test

@@ -71,7 +71,7 @@ TEST(TimeVectors, CommonInstantsAreThoseOfBoth) {
                 const auto sums = b.below(tree_b, n);
                 if (sums.contains(t)) expected += value * sums.at(t);
             }
-            TimeVectors<float>::for_each_common(of_a, m, of_b, n, [&](std::uint32_t, float x, float y) {
+            detail::for_each_common(of_a, m, of_b, n, [&](std::uint32_t, float x, float y) {
                 found += static_cast<double>(x) * static_cast<double>(y);
             });
             EXPECT_NEAR(found, expected, 1e-4 * expected);

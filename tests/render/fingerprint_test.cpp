@@ -51,6 +51,12 @@ TEST(Fingerprint, NamesWhateverChangesThePicture) {
         {"--method (lightcuts, now ward)", [](Pictured& p) { p.options.method = "ward"; }},
         {"--adaptation (0, now auto)", [](Pictured& p) { p.options.adaptation.reset(); }},
         {"--clamp (auto, now inf), --clamp-ratio (0.01, now inf)", [](Pictured& p) { p.options.clamp = {}; }},
+        {"--method (lightcuts, now multidimensional)", [](Pictured& p) { p.options.method = "multidimensional"; }},
+        {"--method (lightcuts, now multidimensional), --clamp (auto, now auto, by share)",
+         [](Pictured& p) {
+             p.options.method = "multidimensional";
+             p.options.given = {"--clamp"};
+         }},
         {"--aov (none, now depth)", [](Pictured& p) { p.options.aovs = {"depth"}; }},
         {"--later (not given, now 3)",
          [](Pictured& p) {

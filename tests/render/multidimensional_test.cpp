@@ -88,6 +88,51 @@ TEST_F(Programs, MultidimensionalPicturesOfMovingLightsInFogAgreeWithTheSumOverA
     EXPECT_LT(sum(render::read_exr(folder / "exact.exr")), sum(found));
 }
 
+/// The largest share of a pixel of `free` that `clamped`, which is nowhere brighter, lacks.
+float largest_loss(const Picture& free, const Picture& clamped) {
+    float loss = 0.0f;
+    for (std::size_t i = 0; i < free.pixels.size(); ++i) {
+        for (int c = 0; c < 3; ++c) {
+            EXPECT_LE(clamped.pixels[i][c], 1.0001f * free.pixels[i][c]) << i;
+            if (free.pixels[i][c] > 0.0f) loss = std::max(loss, 1.0f - clamped.pixels[i][c] / free.pixels[i][c]);
+        }
+    }
+    return loss;
+}
+
+/// By a share of a pixel's total; of one point a pixel that is what other methods clamp.
+TEST_F(Programs, MultidimensionalPicturesMayBeClampedByShare) {
+    const std::string scene = "room.obj --size 24x18 --indirect 3000 --materials diffuse --quiet" + view;
+    const auto picture = [&](const std::string& arguments) {
+        EXPECT_EQ(render(scene + arguments + " -o picture.exr").status, 0) << arguments;
+        return render::read_exr(folder / "picture.exr");
+    };
+    EXPECT_GT(
+        largest_loss(picture(" --method exhaustive --clamp off"), picture(" --method exhaustive --clamp-ratio 0.001")),
+        0.1f)
+        << "nothing to clamp";
+    for (const std::string method : {"multidimensional", "unified-cut"}) {
+        ASSERT_EQ(render(scene + " --clamp-ratio 0.001 --reference picture.exr --method " + method).status, 0);
+        EXPECT_LT(report("render.json").at("error").at("relative_rmse"), 0.025) << method;
+    }
+
+    const std::string pixels = " --spp 9 --method multidimensional", exact = pixels + " --error-ratio 0 --max-cut 0";
+    const Picture free = picture(exact + " --clamp off");
+    EXPECT_EQ(picture(exact).pixels, free.pixels) << "nothing is clamped without the eye's adaptation";
+    EXPECT_EQ(report("picture.json").at("clamp").at("mode"), "off");
+    EXPECT_GT(largest_loss(free, picture(exact + " --clamp-ratio 0.001")), 0.05f);
+    const Json json = report("picture.json"), clamp = json.at("clamp"), threshold = clamp.at("threshold");
+    EXPECT_EQ(json.at("options").at("clamp"), "auto");
+    EXPECT_EQ(clamp.at("mode"), "auto");
+    EXPECT_NEAR(clamp.at("ratio"), 0.001, 1e-9);
+    EXPECT_GT(threshold.at("min"), 0.0);
+    EXPECT_LE(threshold.at("min"), threshold.at("mean"));
+    EXPECT_LE(threshold.at("mean"), threshold.at("max"));
+    // A cut that is exact is the reference of a pixel.
+    ASSERT_EQ(render(scene + pixels + " --clamp-ratio 0.001 --reference picture.exr").status, 0);
+    EXPECT_LT(report("render.json").at("error").at("relative_rmse"), 0.025);
+}
+
 TEST_F(Programs, MultidimensionalErrorsAreWithinTheirBounds) {
     const std::string scene = "room.obj --area-points 300 --size 24x18 --spp 4 --quiet --error-ratio 0.1" + view;
     ASSERT_EQ(render(scene + " --method exhaustive -o exact.exr").status, 0);

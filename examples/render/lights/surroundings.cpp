@@ -75,8 +75,11 @@ void refuse_given(const Options& options, std::initializer_list<const char*> det
 
 /// Throws if virtual lights are to be clamped, as was asked for, and the method cannot.
 void refuse_idle_clamp(const Options& options) {
-    const bool given = options.is_given("--clamp") || options.is_given("--clamp-ratio");
-    if (options.indirect > 0 && given && options.is_clamp_idle()) {
+    if (options.indirect > 0 && options.is_clamp_given() && options.is_clamp_idle()) {
+        if (options.sums_pixels()) {
+            throw usage_error("--method " + options.method +
+                              " does not clamp virtual lights to a radiance: give --clamp auto or off");
+        }
         throw usage_error("--method " + options.method +
                           " does not clamp virtual lights: give --clamp off, or one of " + listed(clamping_methods()));
     }
@@ -97,9 +100,7 @@ void add_surroundings(Scene& scene, Options& options) {
     }
     if (own.ground && !options.is_given("--ground")) options.ground = *own.ground;
     if (!options.is_given("--indirect")) options.indirect = own.indirect;
-    if (own.clamp && !options.is_given("--clamp") && !options.is_given("--clamp-ratio")) {
-        options.clamp = {.radiance = *own.clamp};
-    }
+    if (own.clamp && !options.is_clamp_given()) { options.clamp = {.radiance = *own.clamp}; }
 
     if (!options.env.empty()) {
         add_environment(scene, read_map(options.env), options.env.string(), options);

@@ -40,6 +40,18 @@ namespace detail {
 template <Spectrum S>
 using ChannelSums = std::array<double, static_cast<std::size_t>(channels_of<S>)>;
 
+/// How many lights count in channel `c`: one number for all channels, or a spectrum.
+inline double lights_in(double lights, std::size_t) { return lights; }
+template <Spectrum S>
+    requires(channels_of<S> > 1)
+double lights_in(const S& lights, std::size_t c) { return static_cast<double>(channel(lights, static_cast<int>(c))); }
+
+/// True of lights that are clamped: others are infinitely many, in every channel.
+template <class Count>
+bool are_clamped(const Count& lights) {
+    return lights_in(lights, 0) < std::numeric_limits<double>::infinity();
+}
+
 /// `s` with no channel above `limit`.
 template <Spectrum S>
 S at_most(const S& s, float limit) {
@@ -132,10 +144,11 @@ struct LightCount {
         return known;
     }
     /// `count` lights that add `contribution` together, or `part` of it.
-    void add(const S& contribution, double count, double part = 1.0) {
+    template <class Count>
+    void add(const S& contribution, const Count& count, double part = 1.0) {
         for (std::size_t c = 0; c < lights.size(); ++c) {
-            lights[c] += counted_lights(part * static_cast<double>(channel(contribution, static_cast<int>(c))), count,
-                                        per_radiance[c]);
+            lights[c] += counted_lights(part * static_cast<double>(channel(contribution, static_cast<int>(c))),
+                                        lights_in(count, c), per_radiance[c]);
         }
     }
 };
@@ -146,8 +159,8 @@ template <Spectrum S, class Visit>
 ChannelSums<S> effective_ratios(const ClampingOptions& clamp, const ChannelSums<S>& counts, const Visit& visit) {
     LightCount<S> arriving(clamp, counts);
     bool known = !clamp.is_automatic();
-    visit([&](const S& raw, double lights) {
-        if (known || !(lights < std::numeric_limits<double>::infinity())) return;
+    visit([&](const S& raw, const auto& lights) {
+        if (known || !are_clamped(lights)) return;
         arriving.add(raw, lights);
         known = arriving.is_known();
     });
@@ -159,9 +172,9 @@ ChannelSums<S> effective_ratios(const ClampingOptions& clamp, const ChannelSums<
 /// Solves `total = fixed + sum over contributions of min(raw, lights x threshold(total))` for the largest total, from
 /// above or from a guess, in every channel. The sum is concave and piecewise linear in the total, and not negative at
 /// zero: Newton's method descends to the root in finitely many steps, of which there are rarely more than three.
-/// `visit(f)` calls f(raw, lights) for every contribution, of infinitely many lights if it is not clamped. The
-/// threshold is that of a total within `tolerance` of the root, and the total is the sum under this very threshold.
-/// `ratio`: effective.
+/// `visit(f)` calls f(raw, lights) for every contribution, of infinitely many lights if it is not clamped; `lights` is
+/// a number or, where channels have different ones, a spectrum. The threshold is that of a total within `tolerance` of
+/// the root, and the total is the sum under this very threshold. `ratio`: effective.
 template <Spectrum S, class Visit>
 ClampedTotal<S> clamped_total(const ClampingOptions& clamp, const ChannelSums<S>& ratio, const ChannelSums<S>& fixed,
                               ChannelSums<S> guess, double tolerance, const Visit& visit) {
@@ -176,12 +189,13 @@ ClampedTotal<S> clamped_total(const ClampingOptions& clamp, const ChannelSums<S>
             result.threshold[c] = clamp_threshold(clamp, result.ratio[c], guess[c]);
         }
         ChannelSums<S> rest = fixed, clamped{};
-        visit([&](const S& raw, double lights) {
+        visit([&](const S& raw, const auto& lights) {
             for (std::size_t c = 0; c < guess.size(); ++c) {
                 const double value = static_cast<double>(channel(raw, static_cast<int>(c)));
-                const double limit = lights * result.threshold[c];  // NaN: not clamped, at a threshold of zero
+                const double count = lights_in(lights, c);
+                const double limit = count * result.threshold[c];  // NaN: not clamped, at a threshold of zero
                 rest[c] += value > limit ? 0.0 : value;
-                clamped[c] += value > limit ? lights : 0.0;
+                clamped[c] += value > limit ? count : 0.0;
             }
         });
         // Step 2: the root of the tangent, without a difference of sums, of which a spike may be nearly all.
@@ -216,6 +230,7 @@ struct ArrivingLights {
 
 /// Bounds the difference between a cut's clamped total and the true one, whose ratio and threshold are others.
 /// `visit(f)` calls f(raw estimate, raw bound, lights) for every node of the cut; zero bounds are exact nodes.
+/// `count_rounding`: relative, of `lights`.
 ///
 /// For a given ratio the total is the largest root of a concave function of the total. The larger the function, the
 /// larger the root; and for a given ratio the function increases with every contribution, and with the ratio. So both
@@ -224,7 +239,7 @@ struct ArrivingLights {
 /// latter function are above it, chords of the former below.
 template <Spectrum S, class Visit>
 ChannelSums<S> clamped_error(const ClampingOptions& clamp, const ClampedTotal<S>& cut,
-                             const ArrivingLights<S>& arriving, const Visit& visit) {
+                             const ArrivingLights<S>& arriving, double count_rounding, const Visit& visit) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     struct Sums {
         double upper_threshold = 0, lower_threshold = 0;  ///< under the cut's total, by the extreme ratios
@@ -253,14 +268,15 @@ ChannelSums<S> clamped_error(const ClampingOptions& clamp, const ClampedTotal<S>
         s.upper_ratio = s.upper_threshold < static_cast<double>(clamp.radiance) ? upper : 0.0;
     }
     double nodes = 0.0;
-    visit([&](const S& estimate, const S& bound, double lights) {
+    visit([&](const S& estimate, const S& bound, const auto& count) {
         nodes += 1.0;
-        const auto at_most = [lights](double value, double threshold) {
-            const double limit = lights * threshold;
-            return value > limit ? limit : value;
-        };
         for (std::size_t c = 0; c < sums.size(); ++c) {
             Sums& s = sums[c];
+            const double lights = lights_in(count, c);
+            const auto at_most = [lights](double value, double threshold) {
+                const double limit = lights * threshold;
+                return value > limit ? limit : value;
+            };
             const double e = static_cast<double>(channel(estimate, static_cast<int>(c)));
             const double b = static_cast<double>(channel(bound, static_cast<int>(c)));
             const double here = at_most(e, cut.threshold[c]);
@@ -281,14 +297,14 @@ ChannelSums<S> clamped_error(const ClampingOptions& clamp, const ClampedTotal<S>
         }
     });
     constexpr double float_rounding = 0x1p-24;
-    const double rounding = unit_roundoff * (16.0 + nodes);
+    const double rounding = unit_roundoff * (16.0 + nodes) + count_rounding;
     ChannelSums<S> error{};
     for (std::size_t c = 0; c < sums.size(); ++c) {
         const Sums& s = sums[c];
         // The total is what is not clamped over 1 - slope: where that difference is lost in rounding, so is the total.
         const bool moves = cut.threshold[c] < static_cast<double>(clamp.radiance);
         const double rounded = moves ? rounding * (cut.total[c] / s.unclamped) : 0.0;
-        if (rounded > float_rounding) {
+        if (rounded > float_rounding + 16.0 * count_rounding) {
             const double raw = s.exact_raw_gain + s.raw_bound, most = raw > cut.total[c] ? raw : cut.total[c];
             error[c] = rounded < 1.0 ? rounded * most : most;
         }

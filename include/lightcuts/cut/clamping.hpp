@@ -4,23 +4,31 @@
 #include <limits>
 
 #include "clamp.hpp"
-#include "cut_node.hpp"
-#include "refinement.hpp"
 
 namespace lightcuts::detail {
 
-/// How the contributions to one receiver's cut are clamped at the moment.
+/// What a cut with clamped lights amounts to.
 template <Spectrum S>
+struct ClampedSums {
+    ClampedTotal<S> clamped;
+    ChannelSums<S> bound{};  ///< of the total's error
+};
+
+/// How the contributions to one cut are clamped at the moment. `N` is a node with an `estimate`, its error's `bound`,
+/// both as they are without clamping, and how many `lights` it has, infinitely many if they are not clamped: a number,
+/// or a spectrum where channels differ. `N::lights_rounding` is their relative rounding.
+template <Spectrum S, class N>
 class CutClamping {
 public:
     using Sums = ChannelSums<S>;
-    using Node = CutNode<S, true>;
+    using Node = N;
 
-    template <class Forest>
-    void start(const ClampingOptions& options, const Forest& forest) {
+    /// `counts()`: what `counts_per_radiance` finds; called under automatic clamping only.
+    template <class Counts>
+    void start(const ClampingOptions& options, const Counts& counts) {
         *this = {};
         options_ = options;
-        if (options.is_automatic()) counts_ = counts_per_radiance(forest);
+        if (options.is_automatic()) counts_ = counts();
         threshold_.fill(static_cast<double>(options.radiance));
         ratio_.fill(std::numeric_limits<double>::infinity());
     }
@@ -28,13 +36,13 @@ public:
     /// What a node of this estimate adds to channel `c` of the total.
     double contribution(const Node& n, std::size_t c) const {
         const auto estimate = static_cast<double>(channel(n.estimate, static_cast<int>(c)));
-        const double most = static_cast<double>(n.lights) * threshold_[c];
+        const double most = lights_in(n.lights, c) * threshold_[c];
         return estimate > most ? most : estimate;
     }
 
     /// True if the node's lights together may be off by more than `threshold` in channel `c`, as a share of the total.
     bool may_exceed(const Node& n, std::size_t c, double threshold) const {
-        return !(static_cast<double>(n.lights) * share_[c] <= threshold);  // NaN: not clamped, at a share of zero
+        return !(lights_in(n.lights, c) * share_[c] <= threshold);  // NaN: not clamped, at a share of zero
     }
 
     /// Finds the largest share of one light from the weights of bounds. It is known also where the total is not, since
@@ -74,9 +82,8 @@ public:
     template <class Visit>
     Sums solve(const Visit& visit, const Sums& guess, double tolerance) {
         const Sums cautious = count_lights(visit);
-        const auto solved = clamped_total<S>(options_, cautious, {}, guess, tolerance, [&](auto&& f) {
-            visit([&](const Node& n) { f(n.estimate, static_cast<double>(n.lights)); });
-        });
+        const auto solved = clamped_total<S>(options_, cautious, {}, guess, tolerance,
+                                             [&](auto&& f) { visit([&](const Node& n) { f(n.estimate, n.lights); }); });
         is_final_ = cautious == ratio_;
         total_ = solved.total;
         threshold_ = solved.threshold;
@@ -87,41 +94,57 @@ public:
         return total_;
     }
 
-    /// The total of a cut as it is, under its own threshold. `total`: the running one.
-    ClampedTotal<S> final_total(const Refinement<Node>& refinement, const Sums& total) const {
-        // Converged refinements have found it, unless they had lights in mind which did not arrive.
-        const bool is_found = refinement.stop_reason() == StopReason::converged && is_final_;
-        if (!options_.is_automatic() || is_found) return {total, threshold_, ratio_};
-        const auto visit = [&](auto&& f) {
-            refinement.for_each([&](const Node& n) { f(n.estimate, static_cast<double>(n.lights)); });
-        };
-        return clamped_total<S>(options_, effective_ratios<S>(options_, counts_, visit), {}, total, 1e-6, visit);
-    }
-
-    /// Bounds the error of `cut`.
-    Sums error(const Refinement<Node>& refinement, const ClampedTotal<S>& cut) const {
-        return clamped_error<S>(options_, cut, arriving_lights(refinement), [&](auto&& f) {
-            refinement.for_each([&](const Node& n) { f(n.estimate, n.bound, static_cast<double>(n.lights)); });
+    /// What a cut comes to as it is, under its own threshold. `visit(f)` calls f(node) for all of it. `total`: the
+    /// running one; `converged`: the refinement has, and its nodes are as it left them. `add_certain(node, count)`
+    /// adds to a LightCount what is known for certain of the node's lights that arrive.
+    template <class Visit, class AddCertain>
+    ClampedSums<S> sums(const Visit& visit, const Sums& total, bool converged, const AddCertain& add_certain) const {
+        ClampedSums<S> result;
+        result.clamped = final_total(visit, total, converged);
+        if (options_.is_automatic()) {
+            result.bound = clamped_error<S>(
+                options_, result.clamped, arriving_lights(visit, add_certain), N::lights_rounding,
+                [&](auto&& f) { visit([&](const Node& n) { f(n.estimate, n.bound, n.lights); }); });
+            return result;
+        }
+        result.clamped.total = {};
+        visit([&](const Node& n) {
+            for (std::size_t c = 0; c < result.bound.size(); ++c) {
+                const double most = lights_in(n.lights, c) * result.clamped.threshold[c];
+                const auto e = static_cast<double>(channel(n.estimate, static_cast<int>(c)));
+                const auto b = static_cast<double>(channel(n.bound, static_cast<int>(c)));
+                result.clamped.total[c] += e > most ? most : e;
+                result.bound[c] += b > most ? most : b;
+            }
         });
+        return result;
     }
 
 private:
+    /// The total of a cut as it is, under its own threshold.
+    template <class Visit>
+    ClampedTotal<S> final_total(const Visit& visit, const Sums& total, bool converged) const {
+        // Converged refinements have found it, unless they had lights in mind which did not arrive.
+        if (!options_.is_automatic() || (converged && is_final_)) return {total, threshold_, ratio_};
+        const auto contributions = [&](auto&& f) { visit([&](const Node& n) { f(n.estimate, n.lights); }); };
+        return clamped_total<S>(options_, effective_ratios<S>(options_, counts_, contributions), {}, total, 1e-6,
+                                contributions);
+    }
+
     /// Finds the ratio by the lights that have arrived; returns that with those which may yet.
     template <class Visit>
     Sums count_lights(const Visit& visit) {
-        const auto contributions = [&](auto&& f) {
-            visit([&](const Node& n) { f(n.estimate, static_cast<double>(n.lights)); });
-        };
+        const auto contributions = [&](auto&& f) { visit([&](const Node& n) { f(n.estimate, n.lights); }); };
         ratio_ = effective_ratios<S>(options_, counts_, contributions);
         bool many = true;
         for (const double r : ratio_) many = many && r == static_cast<double>(options_.ratio);
         if (many) return ratio_;
         Sums lights{}, dark{}, dark_clusters{};
         visit([&](const Node& n) {
-            if (!(n.lights < std::numeric_limits<float>::infinity())) return;
+            if (!are_clamped(n.lights)) return;
             for (std::size_t c = 0; c < dark.size(); ++c) {
                 const int i = static_cast<int>(c);
-                const auto count = static_cast<double>(n.lights);
+                const double count = lights_in(n.lights, c);
                 const auto of = [&](float radiance) {
                     return counted_lights(static_cast<double>(radiance), count, counts_[c]);
                 };
@@ -141,18 +164,18 @@ private:
     }
 
     /// How many clamped lights arrive: those that were looked at for certain, and others where there are bounds.
-    ArrivingLights<S> arriving_lights(const Refinement<Node>& refinement) const {
+    template <class Visit, class AddCertain>
+    ArrivingLights<S> arriving_lights(const Visit& visit, const AddCertain& add_certain) const {
         const LightCount<S> none(options_, counts_);
         ArrivingLights<S> arriving{none, none};
         bool known = false, most_known = false;
-        refinement.for_each([&](const Node& n) {
-            if (known || !(n.lights < std::numeric_limits<float>::infinity())) return;
-            const bool single = n.lights == 1.0f;
+        visit([&](const Node& n) {
+            if (known || !are_clamped(n.lights)) return;
             if (!most_known) {
-                arriving.most.add(single ? n.estimate : n.bound, static_cast<double>(n.lights));
+                arriving.most.add(is_black(n.bound) ? n.estimate : n.bound, n.lights);
                 most_known = arriving.most.is_known();
             }
-            arriving.least.add(n.estimate, 1.0, single ? 1.0 : representative_part(n));
+            add_certain(n, arriving.least);
             known = arriving.least.is_known();
         });
         return arriving;

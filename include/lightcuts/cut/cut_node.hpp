@@ -19,6 +19,7 @@ struct PartTag {};
 template <Spectrum S, bool Clamps = false>
 struct CutNode {
     using LightCount = std::conditional_t<Clamps, float, detail::Empty<detail::LightCountTag>>;
+    static constexpr double lights_rounding = 0.0;  ///< relative, of `lights`, which are whole
     using PartExponent = std::conditional_t<Clamps, std::uint8_t, detail::Empty<detail::PartTag>>;
 
     std::uint32_t node = 0;            ///< in its tree

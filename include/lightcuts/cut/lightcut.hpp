@@ -79,23 +79,15 @@ CutResult<S> cut_result(const Refinement<CutNode<S, Clamps>>& refinement, const 
                         std::uint32_t queries) {
     ChannelSums<S> radiance{}, bound{}, threshold{};
     if constexpr (Clamps) {
-        const CutClamping<S>& clamping = total.clamping();
-        const ClampedTotal<S> clamped = clamping.final_total(refinement, total.total());
-        threshold = clamped.threshold;
-        if (clamping.is_automatic()) {
-            radiance = clamped.total;
-            bound = clamping.error(refinement, clamped);
-        } else {
-            refinement.for_each([&](const CutNode<S, true>& n) {
-                for (std::size_t c = 0; c < radiance.size(); ++c) {
-                    const double most = static_cast<double>(n.lights) * threshold[c];
-                    const double e = static_cast<double>(channel(n.estimate, static_cast<int>(c)));
-                    const double b = static_cast<double>(channel(n.bound, static_cast<int>(c)));
-                    radiance[c] += e > most ? most : e;
-                    bound[c] += b > most ? most : b;
-                }
+        using Node = CutNode<S, true>;
+        const auto sums = total.clamping().sums(
+            [&](auto&& f) { refinement.for_each(f); }, total.total(), refinement.stop_reason() == StopReason::converged,
+            [](const Node& n, LightCount<S>& least) {
+                least.add(n.estimate, 1.0, n.lights == 1.0f ? 1.0 : representative_part(n));
             });
-        }
+        radiance = sums.clamped.total;
+        threshold = sums.clamped.threshold;
+        bound = sums.bound;
     } else {
         refinement.for_each([&](const CutNode<S>& n) {
             for (std::size_t c = 0; c < radiance.size(); ++c) {

@@ -43,7 +43,7 @@ public:
           bounder_(forest, receiver, oracle, policy) {}
 
     void roots(ReusableList<Node>& out) {
-        total_.start(options_.clamp, forest_);
+        total_.start(options_.clamp, [this] { return detail::counts_per_radiance(forest_); });
         queries_ = 0;
         const Start start = start_of();
         forest_.for_each([&](std::uint32_t kind, const auto& tree) {

@@ -9,21 +9,22 @@
 
 namespace lightcuts::detail {
 
-/// The estimated total of one receiver's cut while it is refined, radiance in double, and the priorities that follow
-/// from it: what a cluster may be off by, as a share of the total. `N` has an `estimate` and a `bound`.
+/// The estimated total of one cut while it is refined, radiance in double, and the priorities that follow
+/// from it: what a cluster may be off by, as a share of the total. `N` has an `estimate` and a `bound`, and
+/// what CutClamping asks for if the cut `Clamps`.
 template <Spectrum S, bool Clamps = false, class N = CutNode<S, Clamps>>
 class RunningTotal {
 public:
     using Sums = ChannelSums<S>;
     using Node = N;
 
-    /// The arguments are looked at only if `Clamps`.
-    template <class Forest>
-    void start([[maybe_unused]] const ClampingOptions& clamp, [[maybe_unused]] const Forest& forest) {
+    /// The arguments are looked at only if `Clamps`; see CutClamping.
+    template <class Counts>
+    void start([[maybe_unused]] const ClampingOptions& clamp, [[maybe_unused]] const Counts& counts) {
         *this = {};
         weight_.fill(darkest);
         if constexpr (Clamps) {
-            clamping_.start(clamp, forest);
+            clamping_.start(clamp, counts);
             clamping_.update_shares(weight_);
         }
     }
@@ -105,7 +106,7 @@ public:
     }
 
     const Sums& total() const { return total_; }
-    const CutClamping<S>& clamping() const requires Clamps { return clamping_; }
+    const CutClamping<S, N>& clamping() const requires Clamps { return clamping_; }
 
 private:
     static constexpr double darkest = 1e150;  ///< weight of bounds where no light has arrived
@@ -144,7 +145,7 @@ private:
     Sums largest_{};  ///< largest running sum since it was last computed afresh
     Sums weight_{};   ///< 1 / (total + adaptation): what turns a bound into a priority
     Sums base_{};     ///< weights at the last checkpoint
-    [[no_unique_address]] std::conditional_t<Clamps, CutClamping<S>, Empty<ClampingTag>> clamping_{};
+    [[no_unique_address]] std::conditional_t<Clamps, CutClamping<S, N>, Empty<ClampingTag>> clamping_{};
 };
 
 }  // namespace lightcuts::detail

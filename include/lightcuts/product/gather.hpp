@@ -3,6 +3,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <ranges>
 #include <span>
 #include <string>
@@ -22,7 +23,9 @@ namespace lightcuts {
 template <Spectrum S>
 struct GatherResult : CutResult<S> {
     /// The largest bound of a pair of clusters left on the cut, in each channel: at most the error ratio times the sum
-    /// of the total and a tenth of the adaptation where the refinement has converged. `error_bound` is the sum of all.
+    /// of the total and a tenth of the adaptation where the refinement has converged, and 1 % more with automatic
+    /// clamping, under which a pair's bound is no more than its lights may add. `error_bound` is the sum of all, and
+    /// with automatic clamping what the errors do to the threshold too.
     S largest_bound = black<S>();
     double pairs = 0.0;  ///< gather points times lights
 };
@@ -30,10 +33,11 @@ struct GatherResult : CutResult<S> {
 /// Storage that `gather` reuses; one for each thread. No allocation once warm. `Clamps`: some lights may be clamped.
 template <Spectrum S, bool Clamps = false>
 struct GatherScratch {
-    using Node = ProductNode<S>;
+    using Node = ProductNode<S, Clamps>;
 
     Refinement<Node> refinement;
-    detail::ProductTotal<S> total;
+    detail::ProductTotal<S, Clamps> total;
+    [[no_unique_address]] detail::PairLightsIf<S, Clamps> lights;
     ReusableList<Node> redrawn;
     ReusableList<VisibilityQuery> queries;
     std::vector<float> answers;
@@ -80,6 +84,21 @@ using gather_scratch_of = GatherScratch<typename detail::GatherLights<std::remov
 
 namespace detail {
 
+/// The most that a node of a cut may be off by where no light adds more than `threshold`.
+template <Spectrum S, class Node>
+S clamped_bound(const Node& n, const S& threshold) {
+    if constexpr (std::is_empty_v<typename Node::LightCount>) {
+        return n.bound;
+    } else {
+        return make_spectrum<S>([&](int c) {
+            const double most = lights_in(n.lights, static_cast<std::size_t>(c)) *
+                                static_cast<double>(channel(threshold, c));
+            const float bound = channel(n.bound, c);
+            return static_cast<double>(bound) > most ? round_up(most) : bound;
+        });
+    }
+}
+
 /// The sum over one gather point: its lightcut.
 template <class Forest, class G, class Oracle, class Scratch, class Policy>
 GatherResult<typename Forest::spectrum> gather_at_one_point(const Forest& forest, const G& point, const Oracle& oracle,
@@ -102,8 +121,12 @@ GatherResult<typename Forest::spectrum> gather_at_one_point(const Forest& forest
     result.error_bound = scaled(result.error_bound);
     S largest = black<S>();
     scratch.in_progress.front().refinement.for_each(
-        [&](const auto& n) { largest = larger_channels(largest, n.bound); });
+        [&](const auto& n) { largest = larger_channels(largest, clamped_bound<S>(n, result.clamp_threshold)); });
     result.largest_bound = scaled(largest);
+    result.clamp_threshold = make_spectrum<S>([&](int c) {
+        const float s = channel(point.strength, c);
+        return s > 0.0f ? s * channel(result.clamp_threshold, c) : std::numeric_limits<float>::infinity();
+    });
     result.pairs = static_cast<double>(forest.light_count());
     return result;
 }
@@ -113,7 +136,8 @@ GatherResult<typename Lights::spectrum> gather_pairs(const Lights& lights, const
                                                      Scratch& scratch, const ProductOptions& options,
                                                      const Policy& policy) {
     using S = typename Lights::spectrum;
-    using Node = ProductNode<S>;
+    constexpr bool clamps = Lights::forest_type::clamps;
+    using Node = ProductNode<S, clamps>;
     if constexpr (!Lights::timed) {
         if (points.point_count() == 1 && !options.redraw) {
             GatherResult<S> result;
@@ -127,7 +151,7 @@ GatherResult<typename Lights::spectrum> gather_pairs(const Lights& lights, const
     }
     std::uint32_t queries = 0;
     ProductProblem<Lights, Points, Oracle, Policy> problem(lights, points, oracle, policy, options, scratch.total,
-                                                           queries, scratch.queries);
+                                                           scratch.lights, queries, scratch.queries);
     const RefinementOptions refinement = refinement_options(options.cut);
     const auto evaluate = [&](std::span<Node> fresh) {
         if constexpr (AnswersMany<Oracle, S>) {
@@ -146,19 +170,6 @@ GatherResult<typename Lights::spectrum> gather_pairs(const Lights& lights, const
         scratch.refinement.absorb(problem);
     } while (scratch.refinement.split(problem, refinement));
 
-    ChannelSums<S> radiance{}, bound{};
-    S largest = black<S>();
-    const auto add_estimate = [&](const Node& n) {
-        for (std::size_t c = 0; c < radiance.size(); ++c) {
-            radiance[c] += static_cast<double>(channel(n.estimate, static_cast<int>(c)));
-        }
-    };
-    scratch.refinement.for_each([&](const Node& n) {
-        for (std::size_t c = 0; c < bound.size(); ++c) {
-            bound[c] += static_cast<double>(channel(n.bound, static_cast<int>(c)));
-        }
-        largest = larger_channels(largest, n.bound);
-    });
     if (options.redraw) {
         scratch.redrawn.clear();
         scratch.redrawn.reserve(scratch.refinement.size());
@@ -166,14 +177,35 @@ GatherResult<typename Lights::spectrum> gather_pairs(const Lights& lights, const
             scratch.redrawn.append(n);
             problem.redraw(scratch.redrawn[scratch.redrawn.size() - 1]);
         });
-        const std::span<Node> redrawn(scratch.redrawn.data(), scratch.redrawn.size());
-        evaluate(redrawn);
-        for (const Node& n : redrawn) add_estimate(n);
+        evaluate(std::span<Node>(scratch.redrawn.data(), scratch.redrawn.size()));
+    }
+    const auto visit = [&](auto&& f) {
+        if (!options.redraw) return scratch.refinement.for_each(f);
+        for (const Node& n : std::span<const Node>(scratch.redrawn.data(), scratch.redrawn.size())) f(n);
+    };
+    ChannelSums<S> radiance{}, bound{}, threshold{};
+    threshold.fill(std::numeric_limits<double>::infinity());
+    if constexpr (clamps) {
+        const bool found = !options.redraw && scratch.refinement.stop_reason() == StopReason::converged;
+        const auto sums = scratch.total.clamping().sums(
+            visit, scratch.total.total(), found,
+            [&](const Node& n, LightCount<S>& least) { problem.add_certain(n, least); });
+        radiance = sums.clamped.total;
+        threshold = sums.clamped.threshold;
+        bound = sums.bound;
     } else {
-        scratch.refinement.for_each(add_estimate);
+        visit([&](const Node& n) {
+            for (std::size_t c = 0; c < bound.size(); ++c) {
+                radiance[c] += static_cast<double>(channel(n.estimate, static_cast<int>(c)));
+                bound[c] += static_cast<double>(channel(n.bound, static_cast<int>(c)));
+            }
+        });
     }
     GatherResult<S> result{result_of<S>(radiance, bound)};
-    result.largest_bound = largest;
+    result.clamp_threshold = make_spectrum<S>([&](int c) { return threshold[static_cast<std::size_t>(c)]; });
+    visit([&](const Node& n) {
+        result.largest_bound = larger_channels(result.largest_bound, clamped_bound<S>(n, result.clamp_threshold));
+    });
     result.cut_size = static_cast<std::uint32_t>(scratch.refinement.size());
     result.queries = queries;
     result.stop = scratch.refinement.stop_reason();
@@ -187,21 +219,24 @@ GatherResult<typename Lights::spectrum> gather_pairs(const Lights& lights, const
 /// pairs of clusters [Multidimensional Lightcuts 2006]: a pixel, a light-map texel, a probe. `radiance` of the result
 /// is the sum of strength x lobe x geometric term x visibility x intensity over pairs that exist at one instant.
 /// `lights`: a LightTree, a LightForest, or a TimedForest where some lights exist at one instant each.
-/// Lights may be clamped by transfer. A BoundedOracle's bounds of clusters are not asked, but at a single point.
-/// pre: where lights have instants, `points` was built with as many.
-/// threads: safe with one scratch and one GatherForest each. cost: about one shadow ray for two pairs on the cut, and
-/// the bounds of four pairs; of lobes without an envelope, such as sums, a bound takes as long as there are points
-/// below. The sum over a single gather point is its lightcut.
+/// ClampableLights may be clamped by transfer, and by ratio: no light adds more than that share of the sum over all
+/// gather points. A gather point's part of it is as its strength, in every channel, so that a light adds at most the
+/// same radiance per strength at each; a light of one instant adds its share at the gather points of that instant. For
+/// one gather point, or many at one place, that is the clamping of lightcuts, which takes strength to be 1. The
+/// threshold in the result is of the sum, strengths included. A BoundedOracle's bounds of clusters are not asked, but
+/// at a single point. pre: where lights have instants, `points` was built with as many. threads: safe with one scratch
+/// and one GatherForest each. cost: about one shadow ray for two pairs on the cut, and the bounds of four pairs; of
+/// lobes without an envelope, such as sums, a bound takes as long as there are points below. The sum over a single
+/// gather point is its lightcut.
 ///
-/// throws: invalid_input if `options` ask for clamping by radiance or share, or the instants of lights and points
-/// differ
+/// throws: invalid_input if `options` ask for clamping by radiance, or the instants of lights and points differ
 template <GatherableLights Lights, AnyGatherPoint... Gs, class Oracle, class Policy = TwoStageBounds>
 GatherResult<typename GatherForest<Gs...>::spectrum> gather(const Lights& lights, const GatherForest<Gs...>& points,
                                                             const Oracle& oracle, gather_scratch_of<Lights>& scratch,
                                                             const ProductOptions& options = {},
                                                             const Policy& policy = {}) {
-    if (options.cut.clamp.has_threshold()) {
-        LIGHTCUTS_THROW(invalid_input("gather: lights may be clamped by transfer only, not by radiance or share"));
+    if (options.cut.clamp.radiance < std::numeric_limits<float>::infinity()) {
+        LIGHTCUTS_THROW(invalid_input("gather: lights may be clamped by transfer or share, not by radiance"));
     }
     if constexpr (detail::is_timed_forest<Lights>) {
         if (Lights::timed && points.instants() != lights.instants()) {

@@ -68,7 +68,7 @@ template <class Lights, class Points, class Policy>
 class PairBounder {
 public:
     using S = typename Lights::spectrum;
-    using Node = ProductNode<S>;
+    using Node = ProductNode<S, Lights::forest_type::clamps>;
 
     PairBounder(const Lights& lights, const Points& points, const Policy& policy, SideRule rule)
         : lights_(lights), points_(points), policy_(policy), rule_(rule) {}

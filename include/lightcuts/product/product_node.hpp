@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <type_traits>
 
 #include "../core/spectrum.hpp"
+#include "../cut/cut_node.hpp"
 
 namespace lightcuts {
 
@@ -20,10 +22,23 @@ enum class SideRule : std::uint8_t {
     sizes
 };
 
-/// A pair of a cluster of gather points and a cluster of lights: a node of the product graph [Multidimensional
-/// Lightcuts 2006, section 3.1].
+namespace detail {
+
+/// How many lights a pair counts for in each channel, see PairLights: a number if there is one channel.
 template <Spectrum S>
+using ProductLightCount = std::conditional_t<channels_of<S> == 1, float, S>;
+
+}  // namespace detail
+
+/// A pair of a cluster of gather points and a cluster of lights: a node of the product graph [Multidimensional
+/// Lightcuts 2006, section 3.1]. `Clamps`: the cut may hold lights that are clamped; estimates and bounds here are as
+/// they were without.
+template <Spectrum S, bool Clamps = false>
 struct ProductNode {
+    using LightCount = std::conditional_t<Clamps, detail::ProductLightCount<S>, detail::Empty<detail::LightCountTag>>;
+    /// Relative, of `lights`: a fraction that is the quotient of two sums in float.
+    static constexpr double lights_rounding = 0x1p-22;
+
     std::uint32_t gather = 0;                 ///< node in its tree of gather points
     std::uint32_t light = 0;                  ///< node in its light tree
     std::uint32_t gather_representative = 0;  ///< leaf that stands for the gather points
@@ -40,6 +55,8 @@ struct ProductNode {
     PairSide side = PairSide::undecided;  ///< the side to split
     std::uint8_t gather_splits = 0;       ///< splits of the gather side since the last of the light side
     std::uint8_t light_splits = 0;        ///< splits of the light side since the last of the gather side
+    /// What the pair counts for under clamping; infinite if it is not clamped.
+    [[no_unique_address]] LightCount lights{};
 };
 
 }  // namespace lightcuts

@@ -18,6 +18,7 @@
 #include "../visibility/oracle.hpp"
 #include "gather_forest.hpp"
 #include "pair_bounder.hpp"
+#include "pair_lights.hpp"
 #include "product_node.hpp"
 #include "timed_forest.hpp"
 
@@ -32,17 +33,21 @@ template <class Oracle, AnyGatherPoint... Gs, class Forest>
 inline constexpr bool answers_points<Oracle, GatherForest<Gs...>, Forest> =
     (answers<Oracle, decltype(Gs::receiver), Forest> && ...);
 
-template <Spectrum S>
-using ProductTotal = RunningTotal<S, false, ProductNode<S>>;
+template <Spectrum S, bool Clamps>
+using ProductTotal = RunningTotal<S, Clamps, ProductNode<S, Clamps>>;
+
+/// What a problem counts lights by, in the caller's storage.
+template <Spectrum S, bool Clamps>
+using PairLightsIf = std::conditional_t<Clamps, PairLights<S>, Empty<PairLightsTag>>;
 
 }  // namespace detail
 
 /// How the sum over pairs of gather points and lights is refined.
 struct ProductOptions {
     /// As of lightcuts, with pairs in place of clusters and lights: error ratio, largest cut, `exhaustive_below`,
-    /// adaptation, seed and the limit of transfer of ClampableLights; other ways of clamping are not for sums over
-    /// pairs. Cuts are larger than those of one receiver: at most 2000 pairs, as in the paper, unless that is less than
-    /// what they start from, a pair for each two trees.
+    /// adaptation, seed, and how ClampableLights are clamped: by transfer and by share of the total, see `gather`, but
+    /// not by radiance. Cuts are larger than those of one receiver: at most 2000 pairs, as in the paper, unless that is
+    /// less than what they start from, a pair for each two trees.
     LightcutOptions cut{.max_cut = 2000};
     /// Of this sum: a pixel, a texel. Choices of different ids do not depend on one another.
     std::uint32_t id = 0;
@@ -59,9 +64,11 @@ struct ProductOptions {
 /// The sum over pairs of gather points and lights as a refinement problem: a cut through their product graph, which is
 /// never made [Multidimensional Lightcuts 2006, section 3]. A view of the caller's data.
 template <class Lights, class Points, class Oracle, class Policy>
-class ProductProblem : public detail::TotalCriterion<detail::ProductTotal<typename Lights::spectrum>> {
+class ProductProblem
+    : public detail::TotalCriterion<detail::ProductTotal<typename Lights::spectrum, Lights::forest_type::clamps>> {
 public:
     using S = typename Lights::spectrum;
+    static constexpr bool clamps = Lights::forest_type::clamps;
     static_assert(std::same_as<S, typename Points::spectrum>, "gather points and lights need the same spectrum");
     static_assert(!Lights::timed || Points::timed, "lights with instants need gather points with instants");
     static_assert(
@@ -69,17 +76,23 @@ public:
         "an oracle needs operator()(receiver, light) const, which returns a bool, a fraction or a spectrum of "
         "fractions, or many(queries, answers) const");
 
-    using Node = ProductNode<S>;
-    using Total = detail::ProductTotal<S>;
+    using Node = ProductNode<S, clamps>;
+    using Total = detail::ProductTotal<S, clamps>;
+    using PairLights = detail::PairLightsIf<S, clamps>;
 
     ProductProblem(const Lights& lights, const Points& points, const Oracle& oracle, const Policy& policy,
-                   const ProductOptions& options, Total& total, std::uint32_t& queries,
+                   const ProductOptions& options, Total& total, PairLights& pair_lights, std::uint32_t& queries,
                    ReusableList<VisibilityQuery>& query_list)
         : Criterion(total, options.cut), lights_(lights), points_(points), oracle_(oracle), options_(options),
-          queries_(queries), query_list_(query_list), bounder_(lights, points, policy, options.side_rule) {}
+          pair_lights_(pair_lights), queries_(queries), query_list_(query_list),
+          bounder_(lights, points, policy, options.side_rule) {}
 
     void roots(ReusableList<Node>& out) {
-        total_.start(options_.cut.clamp, lights_.forest());
+        if constexpr (clamps) {
+            pair_lights_.stop();
+            if (options_.cut.clamp.is_automatic()) pair_lights_.start(points_);
+        }
+        total_.start(options_.cut.clamp, [this] { return counts_per_radiance(); });
         queries_ = 0;
         const std::size_t most = options_.cut.max_cut == 0 ? (std::numeric_limits<std::size_t>::max)()
                                                            : options_.cut.max_cut;
@@ -188,6 +201,21 @@ public:
         });
     }
 
+    template <class Visit>
+    bool revise(const Visit& visit) requires clamps {
+        return total_.revise(visit, floor_);
+    }
+
+    /// Adds to a LightCount that a node's representatives arrive, if they do.
+    template <class LightCount>
+    void add_certain(const Node& n, LightCount& count) const requires clamps {
+        visit(n, [&](auto, const auto& points, const auto& lights, const auto& times) {
+            const auto g = n.gather_representative, l = n.light_representative;
+            count.add(finite_product(n.transfer, weight_of(points, lights, times, g, l)),
+                      pair_lights_.of(points, lights, times, g, l));
+        });
+    }
+
     /// Pairs whose boxes touch, whose bounds are infinite, go by weight over squared diagonals.
     bool precedes(const Node& a, const Node& b) const {
         const double density_a = density(a), density_b = density(b);
@@ -199,8 +227,18 @@ public:
 
 private:
     using Criterion = detail::TotalCriterion<Total>;
+    using Criterion::floor_;
     using Criterion::threshold_;
     using Criterion::total_;
+
+    /// As of a receiver, per radiance of the sum.
+    detail::ChannelSums<S> counts_per_radiance() const {
+        auto counts = detail::counts_per_radiance(lights_.forest());
+        if constexpr (clamps) {
+            for (std::size_t c = 0; c < counts.size(); ++c) counts[c] /= pair_lights_.strength()[c];
+        }
+        return counts;
+    }
 
     /// Of gather points and of lights.
     struct Kinds {
@@ -248,13 +286,13 @@ private:
         if constexpr (at_instants<LightTree>) {
             if (points.is_timed()) {
                 detail::ChannelSums<S> sum{};
-                TimeVectors<S>::for_each_common(
-                    points.times(), gather, times, light, [&](std::uint32_t, const S& strength, const S& intensity) {
-                        const S product = finite_product(strength, intensity);
-                        for (std::size_t c = 0; c < sum.size(); ++c) {
-                            sum[c] += static_cast<double>(channel(product, static_cast<int>(c)));
-                        }
-                    });
+                detail::for_each_common(points.times(), gather, times, light,
+                                        [&](std::uint32_t, const S& strength, const S& intensity) {
+                                            const S product = finite_product(strength, intensity);
+                                            for (std::size_t c = 0; c < sum.size(); ++c) {
+                                                sum[c] += static_cast<double>(channel(product, static_cast<int>(c)));
+                                            }
+                                        });
                 return finite(make_spectrum<S>([&](int c) { return sum[static_cast<std::size_t>(c)]; }));
             }
         }
@@ -279,6 +317,7 @@ private:
         n.bounded = false;
         n.side = PairSide::undecided;
         n.gather_splits = n.light_splits = 0;
+        if constexpr (clamps) n.lights = pair_lights_.of(points, lights, times, gather, light);
         // A single pair is exact.
         const bool is_single = points.topology().is_leaf(gather) && lights.topology().is_leaf(light);
         n.bound = is_single ? black<S>() : detail::multiply_bounds(unit_bound, weight);
@@ -358,19 +397,19 @@ private:
         const auto weigh = [](const S& strength, const S& intensity) {
             return channel_sum(finite_product(strength, intensity));
         };
-        TimeVectors<S>::for_each_common(strengths, gather, intensities, light,
-                                        [&](std::uint32_t, const S& s, const S& i) { sum += weigh(s, i); });
+        detail::for_each_common(strengths, gather, intensities, light,
+                                [&](std::uint32_t, const S& s, const S& i) { sum += weigh(s, i); });
         const double wanted = uniform01(seed) * sum;
         double before = 0.0;
         std::uint32_t drawn = 0;
         bool found = false;
-        TimeVectors<S>::for_each_common(strengths, gather, intensities, light,
-                                        [&](std::uint32_t instant, const S& s, const S& i) {
-                                            const double w = weigh(s, i);
-                                            if (w > 0.0 && !found) drawn = instant;
-                                            before += w;
-                                            found = found || before > wanted;
-                                        });
+        detail::for_each_common(strengths, gather, intensities, light,
+                                [&](std::uint32_t instant, const S& s, const S& i) {
+                                    const double w = weigh(s, i);
+                                    if (w > 0.0 && !found) drawn = instant;
+                                    before += w;
+                                    found = found || before > wanted;
+                                });
         return drawn;
     }
 
@@ -428,6 +467,7 @@ private:
     const Points& points_;
     const Oracle& oracle_;
     const ProductOptions& options_;
+    PairLights& pair_lights_;
     std::uint32_t& queries_;
     ReusableList<VisibilityQuery>& query_list_;
     detail::PairBounder<Lights, Points, Policy> bounder_;

@@ -79,22 +79,16 @@ public:
                value_.capacity() * sizeof(S);
     }
 
-    /// Calls `f(instant, a, b)`, in ascending order, for each instant at which both nodes have something; a and b are
-    /// what they amount to. cost: the instants of the sparser one, each a search in the other.
+    /// Calls `f(instant, value)`, in ascending order, for each instant at which node n has something.
     template <class F>
-    static void for_each_common(const TimeVectors& a, node_index of_a, const TimeVectors& b, node_index of_b,
-                                const F& f) {
-        const bool a_is_sparser = a.count(of_a) <= b.count(of_b);
-        const TimeVectors& sparse = a_is_sparser ? a : b;
-        const TimeVectors& other = a_is_sparser ? b : a;
-        const node_index of_sparse = a_is_sparser ? of_a : of_b, of_other = a_is_sparser ? of_b : of_a;
-        for (std::size_t i = sparse.begin_[of_sparse]; i < sparse.begin_[of_sparse + 1]; ++i) {
-            const std::size_t j = other.find(of_other, sparse.instant_[i]);
-            if (j == none) continue;
-            const S& x = sparse.value_[i];
-            const S& y = other.value_[j];
-            f(std::uint32_t{sparse.instant_[i]}, a_is_sparser ? x : y, a_is_sparser ? y : x);
-        }
+    void for_each(node_index n, const F& f) const {
+        for (std::size_t i = begin_[n]; i < begin_[n + 1]; ++i) f(std::uint32_t{instant_[i]}, value_[i]);
+    }
+    /// Calls `f(value)` with what node n amounts to at an instant, if it has something then.
+    template <class F>
+    void if_any(node_index n, std::uint32_t instant, const F& f) const {
+        const std::size_t i = find(n, instant);
+        if (i != none) f(value_[i]);
     }
 
 private:
@@ -139,5 +133,29 @@ private:
     std::vector<std::uint16_t> instant_;
     std::vector<S> value_;
 };
+
+namespace detail {
+
+/// Calls `f(instant, a, b)`, in ascending order, for each instant at which both nodes have something; a and b are what
+/// they amount to. cost: the instants of the sparser one, each a search in the other.
+template <Spectrum A, Spectrum B, class F>
+void for_each_common(const TimeVectors<A>& a, ClusterTree::node_index of_a, const TimeVectors<B>& b,
+                     ClusterTree::node_index of_b, const F& f) {
+    if (a.count(of_a) <= b.count(of_b)) {
+        a.for_each(of_a, [&](std::uint32_t t, const A& x) { b.if_any(of_b, t, [&](const B& y) { f(t, x, y); }); });
+    } else {
+        b.for_each(of_b, [&](std::uint32_t t, const B& y) { a.if_any(of_a, t, [&](const A& x) { f(t, x, y); }); });
+    }
+}
+
+/// Time vectors of intensities, and of how many lights there are.
+template <Spectrum S>
+struct CountedTimeVectors : TimeVectors<S> {
+    TimeVectors<float> counts;
+
+    std::size_t memory_bytes() const { return TimeVectors<S>::memory_bytes() + counts.memory_bytes(); }
+};
+
+}  // namespace detail
 
 }  // namespace lightcuts

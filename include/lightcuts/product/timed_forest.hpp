@@ -8,6 +8,7 @@
 
 #include "../core/kinds.hpp"
 #include "../cut/forest.hpp"
+#include "../light/clampable.hpp"
 #include "time_vectors.hpp"
 #include "timed_light.hpp"
 
@@ -18,8 +19,9 @@ template <std::size_t Kind>
 struct NoTimesTag {};
 }  // namespace detail
 
-/// Light trees at T instants: a forest, and for each kind of `TimedLight` what its clusters are at each instant. Other
-/// kinds cost nothing. Built once for a scene and shared by threads; refers to the trees.
+/// Light trees at T instants: a forest, and for each kind of `TimedLight` what its clusters are at each instant; of
+/// those that may be clamped also how many lights they are then. Other kinds cost nothing. Built once for a scene and
+/// shared by threads; refers to the trees.
 template <Light... Ls>
 class TimedForest {
 public:
@@ -40,7 +42,8 @@ public:
     const forest_type& forest() const { return forest_; }
     std::uint32_t instants() const { return instants_; }
 
-    /// Calls `f(tree, times)` for kind `kind`: `times` is a `TimeVectors` if the kind is a TimedLight, else empty.
+    /// Calls `f(tree, times)` for kind `kind`: `times` is a `TimeVectors` if the kind is a TimedLight, with `counts` if
+    /// it is a ClampableLight, else empty.
     template <class F>
     decltype(auto) visit(std::uint32_t kind, F&& f) const {
         return detail::visit_kind<forest_type::kinds>(
@@ -65,7 +68,10 @@ private:
     template <std::size_t K>
     using Kind = std::tuple_element_t<K, std::tuple<Ls...>>;
     template <std::size_t K>
-    using Times = std::conditional_t<TimedLight<Kind<K>>, TimeVectors<spectrum>, detail::Empty<detail::NoTimesTag<K>>>;
+    using Vectors =
+        std::conditional_t<ClampableLight<Kind<K>>, detail::CountedTimeVectors<spectrum>, TimeVectors<spectrum>>;
+    template <std::size_t K>
+    using Times = std::conditional_t<TimedLight<Kind<K>>, Vectors<K>, detail::Empty<detail::NoTimesTag<K>>>;
 
     template <std::size_t... Ks>
     static std::tuple<Times<Ks>...> times_type(std::index_sequence<Ks...>);
@@ -75,11 +81,15 @@ private:
         using L = Kind<K>;
         if constexpr (TimedLight<L>) {
             const LightTree<L>& tree = forest_.template tree<K>();
+            const auto instant = [&](std::uint32_t i) { return instant_of(tree.lights()[i]); };
             auto& times = std::get<K>(times_);
-            times.build(
-                tree.topology(), instants_, [&](std::uint32_t i) { return instant_of(tree.lights()[i]); },
-                [&](std::uint32_t i) { return detail::intensity_of(tree.lights()[i]); });
+            times.build(tree.topology(), instants_, instant,
+                        [&](std::uint32_t i) { return detail::intensity_of(tree.lights()[i]); });
             times.shrink_to_fit();
+            if constexpr (ClampableLight<L>) {
+                times.counts.build(tree.topology(), instants_, instant, [](std::uint32_t) { return 1.0f; });
+                times.counts.shrink_to_fit();
+            }
         }
     }
 

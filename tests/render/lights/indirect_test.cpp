@@ -239,6 +239,7 @@ TEST_F(IndirectLight, RefusesWhatCannotBe) {
         {"room.obj --indirect 100 --clamp auto --method power", 2, "--method power does not clamp"},
         {"room.obj --indirect 100 --clamp 0.5 --method ward", 2, "--method ward does not clamp"},
         {"room.obj --indirect 100 --clamp-ratio 0.1 --method tree-sampling", 2, "--method tree-sampling does not"},
+        {"room.obj --indirect 100 --clamp 0.5 --method multidimensional", 2, "to a radiance: give --clamp auto or off"},
         {"builtin:colonnade --clamp auto --method power", 2, "--method power does not clamp"},
     };
     const auto before = files();
