@@ -66,16 +66,14 @@ public:
     /// It would refer to what is gone.
     explicit Flood(const OccluderMesh&&, const FloodOptions& = {}) = delete;
 
-    /// True only if every segment from a point of `receivers.box` to one of `lights`, short of its untraced end,
-    /// crosses a triangle; but for those to lights below the horizon. `start`: a triangle that the segment between the
-    /// middles of the boxes crosses; if it does not, the answer is false. threads: safe. cost: some 30 ns for each
-    /// triangle that the walk meets; allocates nothing
-    bool hides(const ReceiverBox& receivers, const Box& lights, Index start) const {
-        return walk(receivers, lights, grown(lights), start);
-    }
-    /// The same for every ray in a direction of `lights`.
-    bool hides(const ReceiverBox& receivers, const DirectionBox& lights, Index start) const {
-        return walk(receivers, lights, lights, start);
+    /// True only if every segment from a point of `receivers.box` to one of `lights`, a Box, short of its untraced end,
+    /// crosses a triangle; or every ray in a direction of `lights`, a DirectionBox; but for those to lights below the
+    /// horizon. `start`: a triangle that start_segment() crosses; if it does not, the answer is false. threads: safe.
+    /// cost: some 20 ns for each triangle that the walk meets, and that of `prepare`; allocates nothing
+    template <class Lights>
+    bool hides(const ReceiverBox& receivers, const Lights& lights, Index start) const {
+        const std::optional<Passage> passage = prepare(receivers, lights);
+        return passage && hides(*passage, start);
     }
 
     /// True if there are no receivers or no lights.
@@ -105,6 +103,95 @@ public:
         return start_segment(receivers, lights.box, true);
     }
 
+    /// What lies between receivers and lights, prepared for walks from several triangles.
+    class Passage {
+    public:
+        const Segment& start_segment() const { return segment_; }
+
+    private:
+        friend class Flood;
+
+        template <class Lights>
+        Passage(const ReceiverBox& receivers, const Lights& ends, const Segment& segment, double reach, double margin)
+            : receivers_(receivers.box), light_ends_(box_of_lights(ends)), segment_(segment), reach_(reach),
+              margin_(margin), shaft_(receivers.box, ends, reach) {}
+
+        Box receivers_;
+        Box light_ends_;  ///< where rays to lights may end, and what is nearer than their untraced ends; or directions
+        Segment segment_;
+        double reach_;   ///< no coordinate is larger
+        double margin_;  ///< distance
+        Shaft shaft_;
+    };
+
+    /// Nothing if no triangle can hide these lights, or none need be hidden. `lights`: a Box or a DirectionBox. cost:
+    /// some 150 ns
+    template <class Lights>
+    std::optional<Passage> prepare(const ReceiverBox& receivers, const Lights& lights) const {
+        if (is_empty_problem(receivers, lights)) return std::nullopt;
+        const Segment segment = start_segment(receivers, lights);
+        if (!segment.exists) return std::nullopt;
+        const Lights ends = grown(lights);
+        const Box& box = box_of_lights(ends);
+        // From one direction to its opposite there is no way but through none.
+        if (segment.distant && !(min_distance2({glm::dvec3(box.lo), glm::dvec3(box.hi)}) > 1e-4)) return std::nullopt;
+        double reach = mesh_.reach();
+        for (int axis = 0; axis < 3; ++axis) {
+            reach = detail::larger(reach, magnitude(receivers.box, axis));
+            if (!segment.distant) reach = detail::larger(reach, magnitude(box, axis));
+        }
+        if (!(reach > 0.0) || !(reach < 1e18)) return std::nullopt;  // squares of lengths are numbers
+        Passage passage(receivers, ends, segment, reach, options_.margin * reach);
+        if (!segment.distant) passage.light_ends_ = with_ends(receivers.box, box);
+        if (receivers.horizon) {
+            const glm::dvec3 normal(receivers.horizon->normal);
+            // A ray to a light above the horizon may end below it.
+            const double least = Shaft::lowest(receivers.horizon->positions, normal) -
+                                 options_.end_distance * std::sqrt(detail::dot(normal, normal));
+            passage.shaft_.cut_below(receivers.horizon->normal, least, receivers.box, ends);
+        }
+        return passage;
+    }
+
+    /// `hides` of the receivers and lights that `passage` was prepared for.
+    bool hides(const Passage& passage, Index start) const {
+        if (start >= mesh_.size() || !blocks_start_segment(passage, start)) return false;
+        const Side side = side_of(passage, plane_of(start, passage.reach_), start);
+        if (side == Side::unknown) return false;
+        const std::size_t most = options_.max_triangles < most_triangles ? options_.max_triangles : most_triangles;
+        Met met;
+        const OccluderMesh::HalfEdge first = 3 * start;
+        met.add({start,
+                 side,
+                 no_corner,
+                 {passage.shaft_.outside(mesh_.start(first)), passage.shaft_.outside(mesh_.start(first + 1)),
+                  passage.shaft_.outside(mesh_.start(first + 2))}});
+        for (std::size_t i = 0; i < met.size(); ++i) {
+            const Member member = met[i];
+            for (std::uint8_t k = 0; k < 3; ++k) {
+                // The triangle that the walk came from is beyond this edge.
+                if (k == member.entry) continue;
+                const OccluderMesh::HalfEdge edge = 3 * member.triangle + k;
+                const Shaft::Outside from = member.outside[k], to = member.outside[(k + 1u) % 3];
+                if (!passage.shaft_.may_hold(mesh_.start(edge), from, mesh_.end(edge), to)) continue;
+                const Continuation next = continuation(passage, edge, member.side, met);
+                if (next.side == Side::unknown) return false;
+                const Index triangle = OccluderMesh::triangle_of(next.edge);
+                if (met.contains(triangle)) continue;
+                if (met.size() >= most) return false;
+                const bool alike = mesh_.run_alike(edge, next.edge);
+                const std::size_t entry = next.edge % 3;
+                Member beyond{triangle, next.side, static_cast<std::uint8_t>(entry), {}};
+                beyond.outside[entry] = alike ? from : to;
+                beyond.outside[(entry + 1) % 3] = alike ? to : from;
+                beyond.outside[(entry + 2) % 3] = passage.shaft_.outside(
+                    mesh_.start(OccluderMesh::next_of_triangle(OccluderMesh::next_of_triangle(next.edge))));
+                met.add(beyond);
+            }
+        }
+        return true;
+    }
+
     /// A place on the segment just behind a triangle that it crosses, where another ray along it may start.
     std::optional<glm::vec3> place_behind(const Segment& segment, Index triangle) const {
         const Plane plane = plane_of(triangle, mesh_.reach());
@@ -120,10 +207,20 @@ private:
     /// On which side of a triangle's plane all receivers are.
     enum class Side : std::int8_t { unknown = 0, positive = 1, negative = -1 };
 
+    static constexpr std::uint8_t no_corner = 3;
+
     /// A triangle of a sheet.
     struct Member {
         Index triangle;
         Side side;
+        std::uint8_t entry;                     ///< the corner where the edge starts that the walk came over
+        std::array<Shaft::Outside, 3> outside;  ///< of the corners
+    };
+
+    /// An edge of the triangle beyond an edge.
+    struct Continuation {
+        OccluderMesh::HalfEdge edge;
+        Side side;  ///< unknown if there is none
     };
 
     /// The triangles that a walk has met.
@@ -162,74 +259,13 @@ private:
         std::size_t count_ = 0;
     };
 
-    /// What a walk does not change.
-    template <class Lights>
-    struct Problem {
-        const ReceiverBox& receivers;
-        const Lights& lights;
-        Box light_ends;  ///< where rays to lights may end, and what is nearer than their untraced ends; or directions
-        double reach;
-        double margin;  ///< distance
-        Shaft shaft;
-    };
-
-    static constexpr bool is_distant(const DirectionBox&) { return true; }
-    static constexpr bool is_distant(const Box&) { return false; }
     static const Box& box_of_lights(const DirectionBox& lights) { return lights.box; }
     static const Box& box_of_lights(const Box& lights) { return lights; }
 
-    /// `ends`: where rays to `lights` may end; or the directions themselves.
-    template <class Lights>
-    bool walk(const ReceiverBox& receivers, const Lights& lights, const Lights& ends, Index start) const {
-        if (start >= mesh_.size() || is_empty_problem(receivers, lights)) return false;
-        const Box& box = box_of_lights(ends);
-        // From one direction to its opposite there is no way but through none.
-        if (is_distant(lights) && !(min_distance2({glm::dvec3(box.lo), glm::dvec3(box.hi)}) > 1e-4)) return false;
-        double reach = mesh_.reach();
-        for (int axis = 0; axis < 3; ++axis) {
-            reach = detail::larger(reach, magnitude(receivers.box, axis));
-            if (!is_distant(lights)) reach = detail::larger(reach, magnitude(box, axis));
-        }
-        if (!(reach > 0.0) || !(reach < 1e18)) return false;  // squares of lengths are numbers
-        Problem<Lights> problem{receivers,
-                                lights,
-                                is_distant(lights) ? box : with_ends(receivers.box, box),
-                                reach,
-                                options_.margin * reach,
-                                Shaft(receivers.box, ends, reach)};
-        if (receivers.horizon) {
-            const glm::dvec3 normal(receivers.horizon->normal);
-            // A ray to a light above the horizon may end below it.
-            const double least = Shaft::lowest(receivers.horizon->positions, normal) -
-                                 options_.end_distance * std::sqrt(detail::dot(normal, normal));
-            problem.shaft.cut_below(receivers.horizon->normal, least, receivers.box, ends);
-        }
-        if (!blocks_start_segment(problem, start)) return false;
-
-        const Side side = side_of(problem, plane_of(start, reach), start);
-        if (side == Side::unknown) return false;
-        const std::size_t most = options_.max_triangles < most_triangles ? options_.max_triangles : most_triangles;
-        Met met;
-        met.add({start, side});
-        for (std::size_t i = 0; i < met.size(); ++i) {
-            const Member member = met[i];
-            for (OccluderMesh::HalfEdge e = 3 * member.triangle; e < 3 * member.triangle + 3; ++e) {
-                if (!problem.shaft.may_hold(mesh_.start(e), mesh_.end(e))) continue;
-                const Member next = continuation(problem, e, member.side, met);
-                if (next.triangle == OccluderMesh::no_triangle) return false;
-                if (met.contains(next.triangle)) continue;
-                if (met.size() >= most) return false;
-                met.add(next);
-            }
-        }
-        return true;
-    }
-
     /// The triangle beyond an edge, as all receivers see it; one that has been met, if possible. None if there is none
     /// that blocks rays short of the lights.
-    template <class Lights>
-    Member continuation(const Problem<Lights>& problem, OccluderMesh::HalfEdge edge, Side side, const Met& met) const {
-        Member found{OccluderMesh::no_triangle, Side::unknown};
+    Continuation continuation(const Passage& passage, OccluderMesh::HalfEdge edge, Side side, const Met& met) const {
+        Continuation found{edge, Side::unknown};
         for (OccluderMesh::HalfEdge e = mesh_.neighbor(edge); e != edge; e = mesh_.neighbor(e)) {
             const Index other = OccluderMesh::triangle_of(e);
             // Across the edge as seen from the receivers: edges that run in opposite directions need the same side.
@@ -238,11 +274,11 @@ private:
                                                           : Side::positive;
             if (other == OccluderMesh::triangle_of(edge)) continue;
             if (const Side known = met.side_of(other); known != Side::unknown) {
-                if (known == needed) return {other, needed};
+                if (known == needed) return {e, needed};
                 continue;
             }
-            if (found.triangle != OccluderMesh::no_triangle) continue;
-            if (side_of(problem, plane_of(other, problem.reach), other) == needed) found = {other, needed};
+            if (found.side != Side::unknown) continue;
+            if (side_of(passage, plane_of(other, passage.reach_), other) == needed) found = {e, needed};
         }
         return found;
     }
@@ -268,13 +304,12 @@ private:
 
     /// The side of a triangle on which all receivers are; unknown also if lights, or the untraced ends of rays to them,
     /// may touch it.
-    template <class Lights>
-    Side side_of(const Problem<Lights>& problem, const Plane& plane, Index triangle) const {
-        const double doubt = plane.length * problem.margin + plane.rounding;
-        const auto [least, largest] = range_over(plane, problem.receivers.box);
+    Side side_of(const Passage& passage, const Plane& plane, Index triangle) const {
+        const double doubt = plane.length * passage.margin_ + plane.rounding;
+        const auto [least, largest] = range_over(plane, passage.receivers_);
         // A triangle without area has no sides.
         if (!(plane.length > 0.0) || !(least > doubt || largest < -doubt)) return Side::unknown;
-        if (!is_clear_of_lights(problem, plane, triangle)) return Side::unknown;
+        if (!is_clear_of_lights(passage, plane, triangle)) return Side::unknown;
         return least > 0.0 ? Side::positive : Side::negative;
     }
 
@@ -292,12 +327,12 @@ private:
 
     /// True if no light, nor the untraced end of a ray to one, touches the triangle: by its plane, by its box, or by an
     /// axis across an edge and an edge of the lights' box [separating axes of a triangle and a box].
-    bool is_clear_of_lights(const Problem<DirectionBox>&, const Plane&, Index) const { return true; }
-    bool is_clear_of_lights(const Problem<Box>& problem, const Plane& plane, Index triangle) const {
-        const double doubt = plane.length * problem.margin + plane.rounding;
-        const auto [least, largest] = range_over(plane, problem.light_ends);
+    bool is_clear_of_lights(const Passage& passage, const Plane& plane, Index triangle) const {
+        if (passage.segment_.distant) return true;
+        const double doubt = plane.length * passage.margin_ + plane.rounding;
+        const auto [least, largest] = range_over(plane, passage.light_ends_);
         if (least > doubt || largest < -doubt) return true;
-        const glm::dvec3 middle = center(problem.light_ends), half = 0.5 * extent(problem.light_ends);
+        const glm::dvec3 middle = center(passage.light_ends_), half = 0.5 * extent(passage.light_ends_);
         std::array<glm::dvec3, 3> corners;
         for (int k = 0; k < 3; ++k) {
             corners[static_cast<std::size_t>(k)] = glm::dvec3(mesh_.corners(triangle)[static_cast<std::size_t>(k)]) -
@@ -305,7 +340,7 @@ private:
         }
         for (int axis = 0; axis < 3; ++axis) {
             const double a = corners[0][axis], b = corners[1][axis], c = corners[2][axis];
-            const double apart = half[axis] + problem.margin;
+            const double apart = half[axis] + passage.margin_;
             if (detail::smaller(a, detail::smaller(b, c)) > apart || detail::larger(a, detail::larger(b, c)) < -apart) {
                 return true;
             }
@@ -318,7 +353,7 @@ private:
                 const double here = nx * corners[k][x] + ny * corners[k][y];
                 const double there = nx * corners[(k + 2) % 3][x] + ny * corners[(k + 2) % 3][y];
                 const double apart = std::fabs(nx) * half[x] + std::fabs(ny) * half[y] +
-                                     (std::fabs(nx) + std::fabs(ny)) * problem.margin;
+                                     (std::fabs(nx) + std::fabs(ny)) * passage.margin_;
                 if (detail::smaller(here, there) > apart || detail::larger(here, there) < -apart) return true;
             }
         }
@@ -326,13 +361,11 @@ private:
     }
 
     /// True if the segment between the middles certainly crosses the triangle, before the untraced end.
-    template <class Lights>
-    bool blocks_start_segment(const Problem<Lights>& problem, Index triangle) const {
-        const Segment segment = start_segment(problem.receivers, problem.lights);
-        if (!segment.exists) return false;
+    bool blocks_start_segment(const Passage& passage, Index triangle) const {
+        const Segment& segment = passage.segment_;
         const glm::dvec3 from = segment.from, way = segment.way();
         const double length = std::sqrt(detail::dot(way, way));
-        const Plane plane = plane_of(triangle, problem.reach);
+        const Plane plane = plane_of(triangle, passage.reach_);
         const double height = plane.at(from), slope = detail::dot(plane.normal, way);
         // On the way from one side to the other.
         if (!(height > 0.0 ? slope < 0.0 : slope > 0.0)) return false;
@@ -380,6 +413,7 @@ private:
                               std::fabs(static_cast<double>(box.hi[axis])));
     }
 
+    static DirectionBox grown(const DirectionBox& lights) { return lights; }
     /// The box of where rays to lights may end.
     Box grown(const Box& lights) const {
         if (options_.end_distance == 0.0 || is_empty(lights)) return lights;

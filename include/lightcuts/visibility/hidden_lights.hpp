@@ -71,10 +71,13 @@ public:
         const Flood::Segment segment = Flood::start_segment(receivers, lights);
         if (!segment.exists) return false;
         VisibilityQuery query{glm::vec3(segment.from), 0, glm::vec3(segment.to), 0, 0, segment.distant};
+        std::optional<Flood::Passage> passage;
         for (int tries = 0; tries < 3; ++tries) {
             const OccluderMesh::Index triangle = first_hit_(query);
             if (triangle >= mesh_.size()) return false;
-            if (flood_.hides(receivers, lights, triangle)) return true;
+            if (tries == 0) passage = flood_.prepare(receivers, lights);
+            if (!passage) return false;
+            if (flood_.hides(*passage, triangle)) return true;
             const std::optional<glm::vec3> behind = flood_.place_behind(segment, triangle);
             if (!behind) return false;
             query.from = *behind;

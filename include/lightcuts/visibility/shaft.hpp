@@ -1,8 +1,10 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 
 #include <glm/vec3.hpp>
 
@@ -36,40 +38,43 @@ public:
     /// The least dot(normal, x) in a box.
     static double lowest(const Box& box, const glm::dvec3& normal) { return -farthest(box, -normal); }
 
-    /// False only if no point between `a` and `b` lies in the shaft.
-    bool may_hold(const glm::vec3& a, const glm::vec3& b) const {
-        const glm::dvec3 from(a), to(b);
-        double begin = 0.0, end = 1.0;
+    /// Which planes a place is outside of, a bit each.
+    using Outside = std::uint32_t;
+
+    Outside outside(const glm::vec3& place) const {
+        const double x = static_cast<double>(place.x), y = static_cast<double>(place.y),
+                     z = static_cast<double>(place.z);
+        Outside bits = 0;
         for (std::size_t i = 0; i < count_; ++i) {
-            const Plane& plane = planes_[i];
-            const double at_from = detail::dot(plane.outward, from) - plane.limit;
-            const double at_to = detail::dot(plane.outward, to) - plane.limit;
-            if (at_from > 0.0 && at_to > 0.0) return false;
-            if (at_from > 0.0) {
-                begin = detail::larger(begin, at_from / (at_from - at_to));
-            } else if (at_to > 0.0) {
-                end = detail::smaller(end, at_from / (at_from - at_to));
-            }
-            if (begin > end) return false;
+            bits |= static_cast<Outside>(x_[i] * x + y_[i] * y + z_[i] * z > limit_[i]) << i;
         }
-        return true;
+        return bits;
     }
 
+    /// False only if no point between `a` and `b` lies in the shaft, which are outside of these planes.
+    bool may_hold(const glm::vec3& a, Outside outside_a, const glm::vec3& b, Outside outside_b) const {
+        if ((outside_a & outside_b) != 0) return false;
+        // The part between two planes, or one end, is in the shaft, unless other planes cut that off.
+        if (outside_a == 0 || outside_b == 0) return true;
+        double begin = 0.0, end = 1.0;
+        for (Outside left = outside_a | outside_b; left != 0; left &= left - 1) {
+            const auto i = static_cast<std::size_t>(std::countr_zero(left));
+            const double at_a = above(i, a), at_b = above(i, b);
+            // Where sums are contracted this may be another rounding than that of `outside`.
+            if ((at_a > 0.0) == (at_b > 0.0)) continue;
+            if (at_a > 0.0) {
+                begin = detail::larger(begin, at_a / (at_a - at_b));
+            } else {
+                end = detail::smaller(end, at_a / (at_a - at_b));
+            }
+        }
+        return begin <= end;
+    }
+    bool may_hold(const glm::vec3& a, const glm::vec3& b) const { return may_hold(a, outside(a), b, outside(b)); }
+
 private:
-    /// The inside is where dot(outward, x) <= limit.
-    struct Plane {
-        glm::dvec3 outward;  ///< unit
-        double limit;
-    };
-
-    /// Six sides of a box, two planes along each axis and the horizon; and some that are nearly the same as others.
-    static constexpr std::size_t most_planes = 20;
-
-    /// A corner of the rectangle that a box is in a coordinate plane.
-    struct Corner {
-        double x;
-        double y;
-    };
+    /// Six sides of a box, at most four planes along each axis, and the horizon.
+    static constexpr std::size_t most_planes = 19;
 
     Shaft(const Box& receivers, const Box& lights, bool distant, double reach)
         // 1e4 times the rounding of a plane's test, 1e-10 of the size of the scene.
@@ -85,36 +90,26 @@ private:
         }
     }
 
-    /// The planes through an edge of each box that run along the third axis: what is seen along it are two rectangles
-    /// and the lines that touch both.
+    /// The planes through an edge of each box that run along the third axis. What is seen along it are two rectangles
+    /// and the lines that touch both, each in corners of the same name: those that are farthest in its direction.
     void add_sides(const Box& receivers, const Box& lights, bool distant, int x, int y) {
-        const auto corner = [&](const Box& box, int i) {
-            return Corner{static_cast<double>(i % 2 == 0 ? box.lo[x] : box.hi[x]),
-                          static_cast<double>(i < 2 ? box.lo[y] : box.hi[y])};
+        const auto corner = [](const Box& box, int axis, double side) {
+            return static_cast<double>(side > 0.0 ? box.hi[axis] : box.lo[axis]);
         };
-        // Of a box that is flat along an axis, two corners are one.
-        const auto is_there = [&](const Box& box, int i) {
-            return (i % 2 == 0 || box.lo[x] < box.hi[x]) && (i < 2 || box.lo[y] < box.hi[y]);
-        };
-        for (int i = 0; i < 4; ++i) {
-            for (int k = 0; k < 4; ++k) {
-                if (!is_there(receivers, i) || !is_there(lights, k)) continue;
-                const Corner from = corner(receivers, i), to = corner(lights, k);
-                const Corner way = distant ? to : Corner{to.x - from.x, to.y - from.y};
-                const double length = std::hypot(way.x, way.y);
+        for (const double side_x : {-1.0, 1.0}) {
+            for (const double side_y : {-1.0, 1.0}) {
+                const double to_x = corner(lights, x, side_x), to_y = corner(lights, y, side_y);
+                const double way_x = distant ? to_x : to_x - corner(receivers, x, side_x);
+                const double way_y = distant ? to_y : to_y - corner(receivers, y, side_y);
                 // Lines along an axis are sides of the boxes.
-                if (!(length > 0.0) || way.x == 0.0 || way.y == 0.0) continue;
+                if (!(way_x * side_x * (way_y * side_y) < 0.0)) continue;
+                const double length = std::sqrt(way_x * way_x + way_y * way_y);
+                if (!(length > 0.0)) continue;
                 glm::dvec3 outward(0.0);
-                for (const double side : {1.0, -1.0}) {
-                    outward[x] = side * way.y / length;
-                    outward[y] = -side * way.x / length;
-                    const double here = outward[x] * from.x + outward[y] * from.y;
-                    // A line that has a corner beyond it, by more than rounding, touches only one of them.
-                    const double limit = distant ? farthest(receivers, outward) : farthest(receivers, lights, outward);
-                    if (limit > here + 0.5 * slack_) continue;
-                    if (distant && farthest(lights, outward) > 1e-12 * nearest_length(lights)) continue;
-                    add(outward, limit);
-                }
+                outward[x] = side_x * std::fabs(way_y) / length;
+                outward[y] = side_y * std::fabs(way_x) / length;
+                if (distant && farthest(lights, outward) > 1e-12 * nearest_length(lights)) continue;
+                add(outward, distant ? farthest(receivers, outward) : farthest(receivers, lights, outward));
             }
         }
     }
@@ -141,11 +136,21 @@ private:
     }
 
     void add(const glm::dvec3& outward, double limit) {
-        if (count_ == most_planes) return;  // a wider shaft is a shaft too
-        planes_[count_++] = {outward, limit + slack_};
+        LIGHTCUTS_ASSERT(count_ < most_planes);
+        x_[count_] = outward.x;
+        y_[count_] = outward.y;
+        z_[count_] = outward.z;
+        limit_[count_++] = limit + slack_;
     }
 
-    std::array<Plane, most_planes> planes_;
+    /// How far a place is outside of plane `i`; negative inside. Rounded as in `outside`.
+    double above(std::size_t i, const glm::vec3& place) const {
+        return x_[i] * static_cast<double>(place.x) + y_[i] * static_cast<double>(place.y) +
+               z_[i] * static_cast<double>(place.z) - limit_[i];
+    }
+
+    /// The inside is where dot(outward, x) <= limit; directions outward are unit vectors.
+    std::array<double, most_planes> x_, y_, z_, limit_;
     std::size_t count_ = 0;
     double slack_;
 };
