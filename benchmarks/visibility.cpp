@@ -1,10 +1,12 @@
 /// What it is worth to know that whole clusters are hidden: cuts, rays, time and error without that knowledge, limited
-/// and not; with what `HiddenLights` proves at each point; and with all of it. Processor time of one thread.
+/// and not; with what `HiddenLights` proves, at each point and for groups of them; and with all of it. Processor time
+/// of one thread.
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstdio>
+#include <optional>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -13,13 +15,11 @@
 #include <CLI/CLI.hpp>
 #include <glm/vec3.hpp>
 #include <lightcuts/bound/policy.hpp>
-#include <lightcuts/tree/build/divide.hpp>
-#include <lightcuts/tree/leaf_order.hpp>
+#include <lightcuts/cut/shade_in_groups.hpp>
 
 #include "error_sum.hpp"
 #include "figures.hpp"
-#include "rays/opaque_mesh.hpp"
-#include "rays/proving_oracle.hpp"
+#include "rays/scene_proofs.hpp"
 #include "timing.hpp"
 #include "workload.hpp"
 
@@ -66,92 +66,87 @@ private:
     std::array<std::vector<bool>, Forest::kinds> visible_;
 };
 
-/// The receivers ordered such that neighbors are alike in place and normal.
-std::vector<std::uint32_t> by_place(const Workload& work) {
-    std::vector<lightcuts::OrientedItem> items;
-    for (const render::SurfacePoint& p : work.points()) items.push_back({p.position, p.geometric_normal, 1.0f});
-    return lightcuts::in_leaf_order(lightcuts::divide(items, lightcuts::LongestAxis{})).items;
-}
-
-/// Where the shadow rays of the first `count` of some receivers start.
-lightcuts::ReceiverBox box_of_group(const Workload& work, std::span<const std::uint32_t> order, std::size_t count) {
-    lightcuts::ReceiverBox group;
-    bool alike = true;
-    for (const std::uint32_t i : order.first(std::min(count, order.size()))) {
-        const lightcuts::ReceiverBox one = lightcuts::box_of(work.receivers()[i]);
-        const bool is_first = lightcuts::is_empty(group.box);
-        group.box = lightcuts::merge(group.box, one.box);
-        if (is_first) group.horizon = one.horizon;
-        alike = alike && one.horizon && one.horizon->normal == group.horizon->normal;
-        if (alike) group.horizon->positions = lightcuts::merge(group.horizon->positions, one.horizon->positions);
-    }
-    if (!alike) group.horizon.reset();
-    return group;
-}
-
 struct Row {
-    double cut = 0, rays = 0, at_limit = 0, time = 0;
+    double cut = 0, rays = 0, at_limit = 0;
     ErrorSum error;
 };
 
 template <class Forest>
 void measure(const Workload& work, const Forest& forest, std::size_t limit) {
     const render::OpaqueOracle oracle = work.oracle();
-    lightcuts::OccluderMesh mesh;
-    const double set_up = seconds([&] { mesh = render::opaque_mesh(work.scene()); });
-    const render::ProvingOracle proving(work.scene(), work.rays(), mesh);
-    lightcuts::SharedProofs proofs;
-    const render::ProvingOracle sharing(work.scene(), work.rays(), mesh, &proofs);
+    std::optional<render::SceneProofs> proofs;
+    const double set_up = seconds([&] { proofs.emplace(work.scene(), work.rays()); });
+    const lightcuts::OccluderMesh& mesh = proofs->mesh();
     std::printf("  %zu triangles, %.1f bytes each, set up in %.3f s; %zu lights, %zu points\n", mesh.size(),
                 static_cast<double>(mesh.memory_bytes()) / static_cast<double>(std::max<std::size_t>(mesh.size(), 1)),
                 set_up, work.light_count(), work.receivers().size());
-    lightcuts::scratch_of<Forest> scratch;
     lightcuts::EstimateScratch<glm::vec3> sum_scratch;
     std::vector<glm::vec3> truth;
     for (const Receiver& r : work.receivers()) truth.push_back(exhaustive_sum(work, r, oracle, sum_scratch));
 
-    const std::vector<std::uint32_t> order = by_place(work);
-    const auto shade = [&](const char* name, std::size_t max_cut, const auto& sees, auto& policy,
-                           std::size_t group = 0) {
+    const std::span<const Receiver> all(work.receivers());
+    std::vector<lightcuts::CutResult<glm::vec3>> results(all.size());
+    lightcuts::GroupScratch<Forest, Receiver> scratch;
+    const auto options_of = [&](std::size_t max_cut) {
+        return lightcuts::LightcutOptions{.max_cut = max_cut, .seed = work.options().seed, .clamp = work.clamp()};
+    };
+    const auto print = [&](const std::string& name, double time) {
         Row row;
-        const lightcuts::LightcutOptions options{
-            .max_cut = max_cut, .seed = work.options().seed, .clamp = work.clamp()};
-        for (std::size_t k = 0; k < order.size(); ++k) {
-            const std::size_t i = order[k];
-            const Receiver& receiver = work.receivers()[i];
-            if (group > 0 && k % group == 0) {
-                row.time += seconds([&] { proofs.start(box_of_group(work, std::span(order).subspan(k), group)); });
-            }
-            if constexpr (requires { policy.look_from(receiver); }) policy.look_from(receiver);
-            lightcuts::CutResult<glm::vec3> result;
-            row.time += seconds([&] {
-                lightcuts::shade(forest, std::span(&receiver, 1), sees, std::span(&result, 1), scratch, options,
-                                 policy);
-            });
-            row.cut += static_cast<double>(result.cut_size);
-            row.rays += static_cast<double>(result.queries);
-            row.at_limit += max_cut > 0 && result.cut_size >= max_cut ? 1.0 : 0.0;
+        for (std::size_t i = 0; i < results.size(); ++i) {
+            row.cut += static_cast<double>(results[i].cut_size);
+            row.rays += static_cast<double>(results[i].queries);
+            row.at_limit += results[i].stop == lightcuts::StopReason::limit ? 1.0 : 0.0;
             for (int c = 0; c < 3; ++c) {
-                row.error.add(static_cast<double>(result.radiance[c]), static_cast<double>(truth[i][c]));
+                row.error.add(static_cast<double>(results[i].radiance[c]), static_cast<double>(truth[i][c]));
             }
         }
-        const auto count = static_cast<double>(work.receivers().size());
+        const auto count = static_cast<double>(results.size());
         std::printf("  %-28s cut %7.1f  rays %7.1f  at the limit %5.1f %%  relative RMSE %5.2f %%  %8.1f us a point\n",
-                    name, row.cut / count, row.rays / count, 100.0 * row.at_limit / count, 100.0 * row.error.relative(),
-                    1e6 * row.time / count);
+                    name.c_str(), row.cut / count, row.rays / count, 100.0 * row.at_limit / count,
+                    100.0 * row.error.relative(), 1e6 * time / count);
         std::fflush(stdout);
     };
-    const lightcuts::TwoStageBounds usual;
-    HiddenKnown<Forest> known(forest, oracle);
-    shade("limited", limit, oracle, usual);
-    shade("without limit", 0, oracle, usual);
-    shade("proofs, limited", limit, proving, usual);
-    shade("proofs, without limit", 0, proving, usual);
-    for (const std::size_t group : {4u, 16u, 64u}) {
-        const std::string name = "groups of " + std::to_string(group) + ", limited";
-        shade(name.c_str(), limit, sharing, usual, group);
+    // Receivers are shaded by tiles, as a renderer has them.
+    const std::size_t tile = 512;
+    const auto by_tiles = [&](auto&& shade) {
+        double time = 0.0;
+        for (std::size_t first = 0; first < all.size(); first += tile) {
+            const std::size_t count = std::min(tile, all.size() - first);
+            time += seconds([&] { shade(all.subspan(first, count), std::span(results).subspan(first, count)); });
+        }
+        return time;
+    };
+    const auto alone = [&](const char* name, std::size_t max_cut) {
+        print(name, by_tiles([&](auto receivers, auto out) {
+                  for (std::size_t i = 0; i < receivers.size(); i += 16) {
+                      const std::size_t count = std::min<std::size_t>(16, receivers.size() - i);
+                      lightcuts::shade(forest, receivers.subspan(i, count), oracle, out.subspan(i, count), scratch.cuts,
+                                       options_of(max_cut));
+                  }
+              }));
+    };
+    const auto proving = [&](const std::string& name, std::size_t max_cut, const lightcuts::GroupOptions& groups) {
+        print(name, by_tiles([&](auto receivers, auto out) {
+                  lightcuts::shade_in_groups(forest, receivers, oracle, proofs->hidden(), out, scratch,
+                                             options_of(max_cut), groups);
+              }));
+    };
+    alone("limited", limit);
+    alone("without limit", 0);
+    proving("own proofs, limited", limit, {.largest_group = 1});
+    proving("own proofs, without limit", 0, {.largest_group = 1});
+    for (const std::size_t group : {16u, 64u, 256u}) {
+        const std::string name = "groups of " + std::to_string(group);
+        proving(name + ", limited", limit, {.largest_group = group, .own_proofs_at_limit = false});
+        proving(name + ", own at the limit", limit, {.largest_group = group});
     }
-    shade("hidden known, limited", limit, oracle, known);
+    HiddenKnown<Forest> known(forest, oracle);
+    print("hidden known, limited", by_tiles([&](auto receivers, auto out) {
+              for (std::size_t i = 0; i < receivers.size(); ++i) {
+                  known.look_from(receivers[i]);
+                  out[i] = lightcuts::shade(forest, receivers[i], oracle, scratch.cuts, options_of(limit), known);
+              }
+          }));
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 
 #include <glm/geometric.hpp>
 #include <lightcuts/lightcuts.hpp>
-#include <lightcuts/visibility/hidden_lights.hpp>
+#include <lightcuts/visibility/proving_oracle.hpp>
 
 namespace {
 
@@ -75,16 +75,6 @@ struct Visible {
     }
 };
 
-// The same with proofs: one more member.
-struct VisibleOrHidden : Visible {
-    const lightcuts::HiddenLights<Walls>& hidden;
-
-    template <class Receiver>
-    bool hides(const Receiver& receiver, const lightcuts::Box& lights) const {
-        return hidden.hides(receiver, lights);
-    }
-};
-
 }  // namespace
 
 int main() {
@@ -102,7 +92,8 @@ int main() {
     const Walls walls{triangles};
     const lightcuts::HiddenLights<Walls> hidden(mesh, walls);
     const Visible plain{walls};
-    const VisibleOrHidden proving{{walls}, hidden};
+    // The same with proofs.
+    const lightcuts::ProvingOracle proving(plain, hidden);
 
     double cut = 0, rays = 0, proved_cut = 0, proved_rays = 0, difference = 0, total = 0;
     constexpr int points = 64;

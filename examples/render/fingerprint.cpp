@@ -56,6 +56,7 @@ void add_options(Fingerprint& print, const Options& o) {
     add("--ward-threshold", o.ward_threshold);
     add("--splitting-threshold", o.splitting_threshold);
     add("--builder", o.builder);
+    add("--visibility-bounds", o.visibility_bounds);
     add("--pair-sides", o.pair_sides);
     add("--area-points", o.area_points);
     add("--area-lights", o.area_lights ? text_of(*o.area_lights) : "usual");

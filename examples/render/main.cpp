@@ -22,6 +22,7 @@
 #include "lights/indirect.hpp"
 #include "moving_view.hpp"
 #include "options.hpp"
+#include "pilot.hpp"
 #include "prepare_scene.hpp"
 #include "program.hpp"
 #include "rays/ray_scene.hpp"
@@ -143,6 +144,8 @@ ExitStatus render_scene(Options options) {
         const EyePathTracer surfaces(scene, rays, shade);
         report.adaptation = options.adaptation ? *options.adaptation : measure_adaptation(view, surfaces, *shader);
         shader->adapt(report.adaptation);
+        if (shader->wants_pilot()) shader->try_out(pilot_blocks(view, surfaces));
+        report.proofs = shader->proof_use();
         const Fingerprint fingerprint = fingerprint_of(options, scene, camera, rays, program_build());
         defer_signals();
         if (options.resume && tiles.is_there()) {

@@ -25,6 +25,7 @@ const std::vector<std::string> methods = {
     "power",      "tree-sampling", "adaptive-splitting", "stochastic-lightcuts"};
 const std::vector<std::string> later_methods = {"reconstruction", "row-column"};
 const std::vector<std::string> pair_sides = {"bounds", "sizes"};
+const std::vector<std::string> bounds_modes = {"auto", "on", "off"};
 const std::vector<std::string> builders = {"binned", "agglomerate", "longest-axis"};
 
 bool contains(const std::vector<std::string>& words, const std::string& word) {
@@ -82,6 +83,9 @@ void set_clamp(Options& options, const std::string& mode, std::optional<float> r
 
 void check_together(const Options& options) {
     check_camera(options);
+    if (options.visibility_bounds == "on" && options.method != "lightcuts") {
+        throw usage_error("--visibility-bounds on goes with --method lightcuts, not " + options.method);
+    }
     if (options.focus && options.aperture == 0.0f) throw usage_error("--focus needs --aperture: a pinhole is sharp");
 }
 
@@ -104,8 +108,8 @@ const std::vector<std::string>& clamping_methods() {
 }
 
 const std::vector<std::string>& aov_names() {
-    static const std::vector<std::string> names = {"cut_size",    "shadow_rays", "gather_points", "instants",
-                                                   "error_bound", "depth",       "normal"};
+    static const std::vector<std::string> names = {"cut_size", "shadow_rays", "hidden_share", "gather_points",
+                                                   "instants", "error_bound", "depth",        "normal"};
     return names;
 }
 
@@ -195,6 +199,10 @@ Options parse_options(int argc, const char* const* argv) {
          });
     declare.choice("--builder", "NAME", "how light trees are built: " + listed(builders) + " (" + options.builder + ")",
                    builders, options.builder);
+    declare.choice("--visibility-bounds", "auto|on|off",
+                   "prove that clusters are hidden: where a pilot says that it pays, always, never (" +
+                       options.visibility_bounds + ")",
+                   bounds_modes, options.visibility_bounds);
     declare.choice("--pair-sides", "NAME",
                    "which side of a pair of clusters is split: " + listed(pair_sides) + " (" + options.pair_sides + ")",
                    pair_sides, options.pair_sides);

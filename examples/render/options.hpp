@@ -50,8 +50,9 @@ struct Options {
     std::uint32_t samples = 64;              ///< of the sampling methods
     float ward_threshold = 0.1f;
     float splitting_threshold = 0.1f;
-    std::string builder = "binned";     ///< binned, agglomerate or longest-axis
-    std::string pair_sides = "bounds";  ///< bounds or sizes, see lightcuts::SideRule
+    std::string builder = "binned";          ///< binned, agglomerate or longest-axis
+    std::string visibility_bounds = "auto";  ///< auto, on or off: clusters proved to be hidden
+    std::string pair_sides = "bounds";       ///< bounds or sizes, see lightcuts::SideRule
 
     std::filesystem::path lights;              ///< CSV with more lights; empty: none
     std::uint32_t area_points = 64;            ///< lights per emissive surface or sphere, at most; 0: none

@@ -33,6 +33,7 @@ struct PixelSum {
     int hits = 0;
     double cut_size = 0;
     double shadow_rays = 0;
+    double hidden = 0;
     double gather_points = 0;
     double instants = 0;
     int shadings = 0;
@@ -153,6 +154,7 @@ private:
             }
             sum.cut_size += static_cast<double>(shading.cut_size);
             sum.shadow_rays += static_cast<double>(shading.shadow_rays);
+            sum.hidden += static_cast<double>(shading.hidden);
             add_points(sum, shading);
             count(shading, statistics);
         }
@@ -170,6 +172,7 @@ private:
         ++statistics.cuts;
         statistics.shadow_rays += shading.shadow_rays;
         statistics.cut_nodes += shading.cut_size;
+        statistics.hidden += shading.hidden;
         statistics.gather_points += shading.gather_points;
         statistics.pairs += shading.pairs;
         statistics.largest_cut = std::max<std::uint64_t>(statistics.largest_cut, shading.cut_size);
@@ -204,6 +207,7 @@ private:
                 if (picture_.channels.empty()) continue;
                 set("cut_size", pixel, sum.cut_size / rays);
                 set("shadow_rays", pixel, sum.shadow_rays / rays);
+                set("hidden_share", pixel, sum.cut_size > 0.0 ? sum.hidden / sum.cut_size : 0.0);
                 set("gather_points", pixel, sum.gather_points);
                 set("instants", pixel, sum.shadings > 0 ? sum.instants / sum.shadings : 0.0);
                 set("error_bound.R", pixel, bound.x);
@@ -239,6 +243,7 @@ void accumulate(RenderStatistics& total, const RenderStatistics& tile) {
     total.cuts += tile.cuts;
     total.shadow_rays += tile.shadow_rays;
     total.cut_nodes += tile.cut_nodes;
+    total.hidden += tile.hidden;
     total.gather_points += tile.gather_points;
     total.pairs += tile.pairs;
     total.largest_cut = std::max(total.largest_cut, tile.largest_cut);

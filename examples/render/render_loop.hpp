@@ -19,6 +19,7 @@ struct RenderStatistics {
     std::uint64_t cuts = 0;    ///< one for each point, or for each pixel where all its points are shaded at once
     std::uint64_t shadow_rays = 0;
     std::uint64_t cut_nodes = 0;      ///< sum of the cuts' sizes
+    std::uint64_t hidden = 0;         ///< of these, proved to be hidden
     std::uint64_t gather_points = 0;  ///< lobes of surface points where all points of a pixel are shaded at once
     double pairs = 0;                 ///< of these and lights, where pairs are summed up
     std::uint64_t largest_cut = 0;
@@ -45,6 +46,7 @@ struct Rendering {
 /// (`interrupted()`) ends the work at once, and the tiles at hand are left out. The picture is the same for any number
 /// of threads. `resume_file`, if there is one, gives the tiles that are in it and gets the others.
 /// Channels as `options.aovs` asks: `cut_size`, `shadow_rays` (sums along an eye ray, mean over the pixel's rays),
+/// `hidden_share` (of the clusters on the pixel's cuts, those that were proved to be hidden),
 /// `gather_points` (of the pixel), `instants` (mean number of instants of the clusters of gather points on the cut),
 /// `error_bound.R` `.G` `.B` (likewise, weighted along mirror paths), `depth` (mean over the rays that hit a surface,
 /// infinite if none does), `normal.X` `.Y` `.Z` (mean of the first hits' shading normals).

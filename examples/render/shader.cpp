@@ -5,7 +5,6 @@
 #include <span>
 #include <utility>
 
-#include <lightcuts/cut/lightcut.hpp>
 #include <lightcuts/estimate/adaptive_splitting.hpp>
 #include <lightcuts/estimate/exhaustive.hpp>
 #include <lightcuts/estimate/power.hpp>
@@ -14,77 +13,17 @@
 #include <lightcuts/estimate/ward.hpp>
 
 #include "interrupt.hpp"
+#include "lightcut_shader.hpp"
 #include "lights/scene_lights.hpp"
 #include "multidimensional_shader.hpp"
 #include "rays/oracle.hpp"
-#include "surfaces/surface_material.hpp"
+#include "surfaces/surface_receiver.hpp"
 
 namespace render {
 
 namespace {
 
 using Forest = SceneLights::Forest;
-using Receiver = lightcuts::Receiver<SurfaceMaterial>;
-
-Receiver receiver_of(const Scene& scene, const SurfacePoint& p) {
-    return {p.position, SurfaceMaterial(p), p.ray_origin, receiver_name(scene, p)};
-}
-
-/// `CutForest`: one of the forests of SceneLights.
-template <class CutForest>
-class LightcutShader final : public Shader {
-public:
-    LightcutShader(const Scene& scene, const RayScene& rays, std::unique_ptr<const SceneLights> lights,
-                   const CutForest& forest, const Options& options)
-        : scene_(scene), rays_(rays), lights_(std::move(lights)), forest_(forest) {
-        cut_.error_ratio = options.error_ratio;
-        cut_.max_cut = options.max_cut;
-        cut_.adaptation = options.adaptation.value_or(0.0f);
-        cut_.seed = options.seed;
-        cut_.clamp = options.clamping();
-    }
-
-    std::unique_ptr<Scratch> make_scratch() const override { return std::make_unique<CutScratch>(); }
-
-    void adapt(float radiance) override { cut_.adaptation = radiance; }
-
-    void shade(std::span<const SurfacePoint> points, std::span<Shading> out, Scratch& scratch) const override {
-        auto& own = static_cast<CutScratch&>(scratch);
-        with_oracle(scene_, rays_, [&](const auto& oracle) {
-            // Long streams of shadow rays against short-lived data: 16 receivers at a time stay in the cache.
-            for (std::size_t begin = 0; begin < points.size() && !interrupted(); begin += group) {
-                const std::size_t count = std::min(group, points.size() - begin);
-                own.receivers.clear();
-                for (const SurfacePoint& p : points.subspan(begin, count))
-                    own.receivers.push_back(receiver_of(scene_, p));
-                own.results.resize(count);
-                lightcuts::shade(forest_, std::span<const Receiver>(own.receivers), oracle, std::span(own.results),
-                                 own.cuts, cut_);
-                for (std::size_t i = 0; i < count; ++i) out[begin + i] = shading_of(own.results[i]);
-            }
-        });
-    }
-
-private:
-    static constexpr std::size_t group = 16;
-
-    struct CutScratch final : Scratch {
-        std::vector<Receiver> receivers;
-        std::vector<lightcuts::CutResult<glm::vec3>> results;
-        lightcuts::scratch_of<CutForest> cuts;
-    };
-
-    static Shading shading_of(const lightcuts::CutResult<glm::vec3>& result) {
-        return {result.radiance, result.error_bound, result.clamp_threshold,
-                result.cut_size, result.queries,     result.stop == lightcuts::StopReason::limit};
-    }
-
-    const Scene& scene_;
-    const RayScene& rays_;
-    std::unique_ptr<const SceneLights> lights_;
-    const CutForest& forest_;  ///< of `lights_`
-    lightcuts::LightcutOptions cut_;
-};
 
 /// The methods that add lights up one by one: `Method(forest, receiver, oracle, scratch) -> Estimate`.
 template <class Method>
@@ -99,10 +38,12 @@ public:
         auto& own = static_cast<LightScratch&>(scratch).lights;
         with_oracle(scene_, rays_, [&](const auto& oracle) {
             for (std::size_t i = 0; i < points.size() && !interrupted(); ++i) {
-                const Receiver receiver = receiver_of(scene_, points[i]);
+                const SurfaceReceiver receiver = receiver_of(scene_, points[i]);
                 const auto estimate = method_(lights_.forest(), receiver, oracle, own);
-                out[i] = {estimate.radiance, glm::vec3(0.0f),  estimate.clamp_threshold,
-                          estimate.queries,  estimate.queries, false};
+                out[i] = {};
+                out[i].radiance = estimate.radiance;
+                out[i].clamp_threshold = estimate.clamp_threshold;
+                out[i].cut_size = out[i].shadow_rays = estimate.queries;
             }
         });
     }
@@ -192,11 +133,7 @@ std::unique_ptr<Shader> make_shader(const Scene& scene, const RayScene& rays, co
         return std::make_unique<EstimateShader<StochasticLightcuts>>(scene, rays, options);
     }
     if (options.sums_pixels()) return make_multidimensional_shader(scene, rays, options);
-    auto lights = std::make_unique<const SceneLights>(scene, options);
-    const SceneLights& trees = *lights;
-    return trees.visit([&]<class F>(const F& forest) -> std::unique_ptr<Shader> {
-        return std::make_unique<LightcutShader<F>>(scene, rays, std::move(lights), forest, options);
-    });
+    return make_lightcut_shader(scene, rays, options);
 }
 
 }  // namespace render

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -24,11 +25,19 @@ struct Shading {
     glm::vec3 clamp_threshold{std::numeric_limits<float>::infinity()};
     std::uint32_t cut_size = 0;
     std::uint32_t shadow_rays = 0;    ///< queries answered by the visibility oracle
+    std::uint32_t hidden = 0;         ///< clusters on the cut that were proved to be hidden
     bool at_limit = false;            ///< the cut ended at its largest size, not at the error ratio
     std::uint32_t gather_points = 1;  ///< that were summed up
     double pairs = 0;                 ///< of gather points and lights, of methods that sum up pairs
     /// Mean number of instants of the clusters of gather points on the cut, where `options.aovs` asks for it.
     float instants = 1.0f;
+};
+
+/// How a method uses proofs that clusters are hidden.
+struct ProofUse {
+    bool used = false;
+    /// Steps with proofs over those without, of the pilot's points; nothing if there was no pilot.
+    std::optional<double> pilot_ratio = {};
 };
 
 /// A method of summing many lights. threads: `shade` may run at once with a scratch for each thread.
@@ -44,8 +53,8 @@ public:
 
     virtual std::unique_ptr<Scratch> make_scratch() const = 0;
 
-    /// Fills `out[i]` for `points[i]`. The result of a point does not depend on the others. Once `interrupted()`, the
-    /// rest is given up.
+    /// Fills `out[i]` for `points[i]`. The same points give the same results, whatever was shaded before. Once
+    /// `interrupted()`, the rest is given up.
     /// pre: points.size() == out.size(); `scratch` was made by this shader.
     virtual void shade(std::span<const SurfacePoint> points, std::span<Shading> out, Scratch& scratch) const = 0;
 
@@ -60,6 +69,15 @@ public:
         static_cast<void>(scratch);
         return {};
     }
+
+    /// True if the method wants to `try_out` points before the picture.
+    virtual bool wants_pilot() const { return false; }
+
+    /// Takes some points of the picture, in blocks of neighbors, to find out what pays. pre: wants_pilot(); nothing
+    /// else runs
+    virtual void try_out(std::span<const std::vector<SurfacePoint>> blocks) { static_cast<void>(blocks); }
+
+    virtual ProofUse proof_use() const { return {}; }
 
     /// Takes the radiance to which the viewer's eye is adapted; methods that do not use it do nothing.
     virtual void adapt(float radiance) { static_cast<void>(radiance); }

@@ -55,6 +55,7 @@ Json options_json(const RunReport& report) {
     json["ward_threshold"] = as_written(o.ward_threshold);
     json["splitting_threshold"] = as_written(o.splitting_threshold);
     json["builder"] = o.builder;
+    json["visibility_bounds"] = o.visibility_bounds;
     json["pair_sides"] = o.pair_sides;
     json["lights"] = path_or_null(o.lights);
     json["area_points"] = o.area_points;
@@ -114,6 +115,15 @@ Json clamp_json(const RunReport& report) {
     return json;
 }
 
+/// What was proved to be hidden.
+Json proofs_json(const RunReport& report) {
+    const RenderStatistics& s = report.statistics;
+    const ProofUse& use = report.proofs;
+    return {{"used", use.used},
+            {"pilot_ratio", use.pilot_ratio ? finite_or_null(*use.pilot_ratio) : Json(nullptr)},
+            {"hidden_share", per(static_cast<double>(s.hidden), s.cut_nodes)}};
+}
+
 }  // namespace
 
 Json to_json(const ErrorFigures& figures) {
@@ -169,6 +179,7 @@ Json to_json(const RunReport& report) {
         {"mean", per(static_cast<double>(s.cut_nodes), s.cuts)}, {"max", s.largest_cut}, {"at_limit", s.at_limit}};
     json["error_bound"] = {{"mean", finite_or_null(per(s.error_bound_sum, s.pixels))},
                            {"max", finite_or_null(s.largest_error_bound)}};
+    json["visibility_bounds"] = proofs_json(report);
     json["clamp"] = clamp_json(report);
     json["left_out"] = Json::array();
     for (const LeftOut& item : scene.left_out)

@@ -13,6 +13,7 @@
 #include "rays/ray_tracer.hpp"
 #include "render_loop.hpp"
 #include "scene.hpp"
+#include "shader.hpp"
 
 namespace render {
 
@@ -36,6 +37,7 @@ struct RunReport {
     PhaseTimes seconds;
     RenderStatistics statistics;
     float adaptation = 0;
+    ProofUse proofs;
     bool interrupted = false;
     std::size_t resumed_tiles = 0;  ///< of an earlier run
     std::filesystem::path picture;  ///< where it is written

@@ -1,13 +1,17 @@
 #include <lightcuts/visibility/hidden_lights.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <gtest/gtest.h>
 #include <glm/vec3.hpp>
 
 #include <lightcuts/cut/lightcut.hpp>
+#include <lightcuts/cut/shade_in_groups.hpp>
 #include <lightcuts/estimate/exhaustive.hpp>
 #include <lightcuts/light/directional.hpp>
 #include <lightcuts/light/omni.hpp>
@@ -157,12 +161,107 @@ TEST(HiddenLights, SpareTheCutWhatIsHidden) {
     EXPECT_LT(static_cast<double>(proved), 0.6 * static_cast<double>(plain));
 }
 
+/// Sees what no triangle of the house is before.
+struct HouseVisible {
+    const SoupHit& hit;
+    template <class L>
+    bool operator()(const Receiver<Lambert<>>& receiver, const L& light) const {
+        const bool distant = DirectionalLight<L>;
+        return hit({receiver.shadow_origin, 0, position_or_direction(light), 0, 0, distant}) ==
+               OccluderMesh::no_triangle;
+    }
+};
+
+TEST(ShadeInGroups, IsWithinItsBoundsWhateverIsShared) {
+    const House house;
+    const SoupHit hit{house.soup};
+    const HiddenLights hidden(house.mesh, hit);
+    Random random(4);
+    std::vector<OmniLight<>> lamps;
+    for (int i = 0; i < 600; ++i) {
+        const double floor = i % 20 == 0 ? 0.2 : 3.2;
+        lamps.push_back({glm::vec3(random.in_box({-2.8, -2.8, floor}, {2.8, 2.8, floor + 2.5})), glm::vec3(1.0f), {}});
+    }
+    const LightTree lights(lamps);
+    std::vector<Receiver<Lambert<>>> receivers;
+    for (int i = 0; i < 200; ++i) {
+        const bool on_floor = i % 3 != 0;
+        receivers.emplace_back(glm::vec3(on_floor ? random.in_box({-2.8, -2.8, 0.01}, {2.8, 2.8, 0.01})
+                                                  : random.in_box({-2.9, -2.8, 0.1}, {-2.9, 2.8, 2.8})),
+                               Lambert<>{on_floor ? glm::vec3(0, 0, 1) : glm::vec3(1, 0, 0), glm::vec3(0.5f)});
+    }
+    const HouseVisible visible{hit};
+    const auto all = std::span<const Receiver<Lambert<>>>(receivers);
+    std::vector<CutResult<glm::vec3>> results(receivers.size()), again(receivers.size());
+    GroupScratch<LightTree<OmniLight<>>, Receiver<Lambert<>>> scratch;
+    const LightcutOptions unlimited{.max_cut = 0, .exhaustive_below = 0};
+    std::size_t hidden_clusters = 0;
+    std::uint64_t rays_of_large_groups = 0;
+    for (const std::size_t group : {64u, 8u, 1u}) {
+        const std::uint64_t before = scratch.steps().rays;
+        shade_in_groups(lights, all, visible, hidden, std::span(results), scratch, unlimited, {.largest_group = group});
+        const std::uint64_t rays = scratch.steps().rays - before;
+        if (group == 64) rays_of_large_groups = rays;
+        if (group == 1) {
+            EXPECT_GT(rays, 4 * rays_of_large_groups) << "shared proofs are made once";
+        }
+        for (std::size_t i = 0; i < receivers.size(); ++i) {
+            const glm::vec3 exact = exhaustive(lights, receivers[i], visible).radiance;
+            for (int c = 0; c < 3; ++c) {
+                EXPECT_LE(std::fabs(results[i].radiance[c] - exact[c]), results[i].error_bound[c] + 1e-5f * exact[c]);
+            }
+            EXPECT_LE(results[i].hidden, results[i].cut_size);
+            hidden_clusters += results[i].hidden;
+        }
+        // Scratch that has seen other receivers changes nothing.
+        shade_in_groups(lights, all, visible, hidden, std::span(again), scratch, unlimited, {.largest_group = group});
+        for (std::size_t i = 0; i < receivers.size(); ++i) {
+            EXPECT_EQ(again[i].radiance, results[i].radiance);
+            EXPECT_EQ(again[i].queries, results[i].queries);
+        }
+    }
+    EXPECT_GT(hidden_clusters, 200u);
+}
+
+TEST(ShadeInGroups, ProvesForOneWhereItsCutEndsAtTheLimit) {
+    // Receivers of both rooms as one group: nothing is hidden from all of them.
+    const House house;
+    const SoupHit hit{house.soup};
+    const HiddenLights hidden(house.mesh, hit);
+    Random random(5);
+    std::vector<OmniLight<>> lamps;
+    for (int i = 0; i < 2000; ++i) {
+        const double floor = i % 100 == 0 ? 0.2 : 3.2;
+        lamps.push_back({glm::vec3(random.in_box({-2.8, -2.8, floor}, {2.8, 2.8, floor + 2.5})), glm::vec3(1.0f), {}});
+    }
+    const LightTree lights(lamps);
+    std::vector<Receiver<Lambert<>>> receivers;
+    for (int i = 0; i < 32; ++i) {
+        const double floor = i % 2 == 0 ? 0.01 : 3.01;
+        receivers.emplace_back(glm::vec3(random.in_box({-2.8, -2.8, floor}, {2.8, 2.8, floor})),
+                               Lambert<>{glm::vec3(0, 0, 1), glm::vec3(0.5f)});
+    }
+    const HouseVisible visible{hit};
+    const auto all = std::span<const Receiver<Lambert<>>>(receivers);
+    std::vector<CutResult<glm::vec3>> shared(receivers.size()), own(receivers.size());
+    GroupScratch<LightTree<OmniLight<>>, Receiver<Lambert<>>> scratch;
+    const LightcutOptions options{.max_cut = 100, .exhaustive_below = 0};
+    shade_in_groups(lights, all, visible, hidden, std::span(shared), scratch, options,
+                    {.largest_group = 64, .own_proofs_at_limit = false});
+    shade_in_groups(lights, all, visible, hidden, std::span(own), scratch, options, {.largest_group = 64});
+    const auto at_limit = [](const auto& results) {
+        return std::count_if(results.begin(), results.end(), [](const auto& r) { return r.stop == StopReason::limit; });
+    };
+    EXPECT_GE(at_limit(shared), 10);
+    EXPECT_LE(2 * at_limit(own), at_limit(shared));
+}
+
 TEST(SharedProofs, AreMadeOnceAndForgottenForOthers) {
     struct Counter {
         mutable std::size_t asked = 0;
         bool answer = true;
-        bool hides(const ReceiverBox&, const Box&) const { return ++asked, answer; }
-        bool hides(const ReceiverBox&, const DirectionBox&) const { return ++asked, !answer; }
+        bool hides(const ReceiverBox&, const Box&, ProofSteps*) const { return ++asked, answer; }
+        bool hides(const ReceiverBox&, const DirectionBox&, ProofSteps*) const { return ++asked, !answer; }
     };
     SharedProofs proofs;
     Counter counter;

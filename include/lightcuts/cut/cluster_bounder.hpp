@@ -8,6 +8,7 @@
 #include "../bound/policy.hpp"
 #include "../core/assertion.hpp"
 #include "../core/reusable_list.hpp"
+#include "../material/material.hpp"
 #include "../shading/shadow_origin.hpp"
 #include "../visibility/oracle.hpp"
 #include "cut_node.hpp"
@@ -24,8 +25,10 @@ public:
     using S = typename Forest::spectrum;
     using Node = CutNode<S, Forest::clamps>;
 
-    ClusterBounder(const Forest& forest, const R& receiver, const Oracle& oracle, const Policy& policy)
-        : forest_(forest), receiver_(receiver), oracle_(oracle), policy_(policy) {}
+    /// `hidden`: counts clusters that the oracle proves to be hidden.
+    ClusterBounder(const Forest& forest, const R& receiver, const Oracle& oracle, const Policy& policy,
+                   std::uint32_t& hidden)
+        : forest_(forest), receiver_(receiver), oracle_(oracle), policy_(policy), hidden_(hidden) {}
 
     /// `priority(node)`: after the bound has changed. `threshold`: of such priorities; nodes below are not split.
     template <class Priority>
@@ -99,6 +102,7 @@ private:
                 if (!is_hidden(*clusters[i])) continue;
                 lower_bound(n, black<S>(), *clusters[i]);
                 candidates[i]->priority = priority(n);
+                ++hidden_;
             }
         }
     }
@@ -108,9 +112,17 @@ private:
     bool is_hidden(const Cluster& cluster) const {
         const place_box<typename Cluster::light_type> box{cluster.box};
         if constexpr (R::two_sided) {
-            if (!oracle_.hides(from_behind(receiver_), box)) return false;
+            if (is_lit_from_behind() && !oracle_.hides(from_behind(receiver_), box)) return false;
         }
         return oracle_.hides(receiver_, box);
+    }
+
+    /// False of a two-sided material that says of this receiver that nothing comes through.
+    bool is_lit_from_behind() const {
+        if constexpr (MaterialWithHorizon<std::remove_cvref_t<decltype(R::material)>>) {
+            return !receiver_.material.horizon();
+        }
+        return true;
     }
 
     template <class Cluster>
@@ -137,6 +149,7 @@ private:
     const R& receiver_;
     const Oracle& oracle_;
     const Policy& policy_;
+    std::uint32_t& hidden_;
 };
 
 }  // namespace lightcuts::detail

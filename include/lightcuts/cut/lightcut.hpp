@@ -31,6 +31,7 @@ struct CutResult {
     S clamp_threshold = make_spectrum<S>([](int) { return std::numeric_limits<float>::infinity(); });
     std::uint32_t cut_size = 0;  ///< clusters on the cut, those that cannot contribute too
     std::uint32_t queries = 0;   ///< shadow rays asked of the oracle
+    std::uint32_t hidden = 0;    ///< clusters on the cut that a HidingOracle has proved to be hidden
     StopReason stop = StopReason::converged;
 };
 
@@ -41,7 +42,7 @@ struct LightcutScratch {
     struct Slot {
         Refinement<CutNode<S, Clamps>> refinement;
         detail::RunningTotal<S, Clamps> total;
-        std::uint32_t queries = 0;
+        detail::CutCounts counts;
         bool running = false;
     };
     std::vector<Slot> in_progress;
@@ -76,7 +77,7 @@ CutResult<S> result_of(const ChannelSums<S>& radiance, const ChannelSums<S>& bou
 /// The estimate and its error bound from a cut as it is.
 template <Spectrum S, bool Clamps>
 CutResult<S> cut_result(const Refinement<CutNode<S, Clamps>>& refinement, const RunningTotal<S, Clamps>& total,
-                        std::uint32_t queries) {
+                        const CutCounts& counts) {
     ChannelSums<S> radiance{}, bound{}, threshold{};
     if constexpr (Clamps) {
         using Node = CutNode<S, true>;
@@ -101,7 +102,8 @@ CutResult<S> cut_result(const Refinement<CutNode<S, Clamps>>& refinement, const 
         result.clamp_threshold = make_spectrum<S>([&](int c) { return threshold[static_cast<std::size_t>(c)]; });
     }
     result.cut_size = static_cast<std::uint32_t>(refinement.size());
-    result.queries = queries;
+    result.queries = counts.queries;
+    result.hidden = counts.hidden;
     result.stop = refinement.stop_reason();
     return result;
 }
@@ -147,7 +149,7 @@ public:
     }
 
     /// The estimate from the cut as it is.
-    CutResult<S> result() const { return detail::cut_result(refinement_, total_, query_count_); }
+    CutResult<S> result() const { return detail::cut_result(refinement_, total_, counts_); }
 
     /// Calls `f(node)` for each CutNode of the cut, in no particular order.
     template <class F>
@@ -158,7 +160,7 @@ public:
 private:
     auto problem() {
         return LightcutProblem<Forest, R, Oracle, Policy>(forest_, receiver_, oracle_, policy_, options_, total_,
-                                                          query_count_, queries_);
+                                                          counts_, queries_);
     }
 
     template <class P>
@@ -182,7 +184,7 @@ private:
     RefinementOptions refinement_options_;
     Refinement<CutNode<S, Forest::clamps>> refinement_;
     detail::RunningTotal<S, Forest::clamps> total_;
-    std::uint32_t query_count_ = 0;
+    detail::CutCounts counts_;
     ReusableList<VisibilityQuery> queries_;
     std::vector<detail::many_answer<Oracle, S>> answers_;
 };
@@ -205,9 +207,9 @@ template <class Forest, class M, class Oracle, class Policy>
     auto& slot = scratch.in_progress.front();
     for (std::size_t i = 0; i < receivers.size(); ++i) {
         LightcutProblem<Forest, Receiver<M>, Oracle, Policy> problem(forest, receivers[i], oracle, policy, options,
-                                                                     slot.total, slot.queries, scratch.queries);
+                                                                     slot.total, slot.counts, scratch.queries);
         slot.refinement.run(problem, refinement);
-        results[i] = cut_result(slot.refinement, slot.total, slot.queries);
+        results[i] = cut_result(slot.refinement, slot.total, slot.counts);
     }
 }
 
@@ -220,7 +222,7 @@ template <class Forest, class M, class Oracle, class Policy>
     const RefinementOptions refinement = refinement_options(options);
     const auto problem_of = [&](std::size_t i, auto& slot) {
         return LightcutProblem<Forest, Receiver<M>, Oracle, Policy>(forest, receivers[i], oracle, policy, options,
-                                                                    slot.total, slot.queries, scratch.queries);
+                                                                    slot.total, slot.counts, scratch.queries);
     };
     if (scratch.in_progress.size() < receivers.size()) scratch.in_progress.resize(receivers.size());
     scratch.queries.clear();
@@ -249,7 +251,7 @@ template <class Forest, class M, class Oracle, class Policy>
                 problem.request(slot.refinement.fresh());
                 any = true;
             } else {
-                results[i] = cut_result(slot.refinement, slot.total, slot.queries);
+                results[i] = cut_result(slot.refinement, slot.total, slot.counts);
             }
         }
     }

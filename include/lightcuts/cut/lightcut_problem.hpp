@@ -16,6 +16,16 @@
 
 namespace lightcuts {
 
+namespace detail {
+
+/// What refining a cut has counted so far.
+struct CutCounts {
+    std::uint32_t queries = 0;
+    std::uint32_t hidden = 0;  ///< clusters on the cut that the oracle has proved to be hidden
+};
+
+}  // namespace detail
+
 /// Lightcuts as a refinement problem, for one receiver [Lightcuts 2005, section 3]. A view of the caller's data.
 template <class Forest, class R, class Oracle, class Policy>
 class LightcutProblem : public detail::TotalCriterion<detail::RunningTotal<typename Forest::spectrum, Forest::clamps>> {
@@ -36,15 +46,15 @@ public:
         "fractions, or many(queries, answers) const");
 
     LightcutProblem(const Forest& forest, const R& receiver, const Oracle& oracle, const Policy& policy,
-                    const LightcutOptions& options, Total& total, std::uint32_t& queries,
+                    const LightcutOptions& options, Total& total, detail::CutCounts& counts,
                     ReusableList<VisibilityQuery>& query_list)
-        : Criterion(total, options), forest_(forest), options_(options), queries_(queries), receiver_id_(receiver.id),
+        : Criterion(total, options), forest_(forest), options_(options), counts_(counts), receiver_id_(receiver.id),
           representatives_(forest, receiver, oracle, options.clamp, query_list),
-          bounder_(forest, receiver, oracle, policy) {}
+          bounder_(forest, receiver, oracle, policy, counts.hidden) {}
 
     void roots(ReusableList<Node>& out) {
         total_.start(options_.clamp, [this] { return detail::counts_per_radiance(forest_); });
-        queries_ = 0;
+        counts_ = {};
         const Start start = start_of();
         forest_.for_each([&](std::uint32_t kind, const auto& tree) {
             if (tree.empty()) return;
@@ -81,7 +91,7 @@ public:
     }
 
     /// Finds the transfer of new representatives; a batched oracle's queries go to the caller's list.
-    void request(std::span<Node> fresh) { queries_ += representatives_.request(fresh); }
+    void request(std::span<Node> fresh) { counts_.queries += representatives_.request(fresh); }
 
     /// Traces the shadow rays of new nodes one by one.
     void evaluate(std::span<Node> fresh) {
@@ -208,7 +218,7 @@ private:
 
     const Forest& forest_;
     const LightcutOptions& options_;
-    std::uint32_t& queries_;
+    detail::CutCounts& counts_;
     std::uint32_t receiver_id_;
     detail::RepresentativeBatch<Forest, R, Oracle> representatives_;
     detail::ClusterBounder<Forest, R, Oracle, Policy> bounder_;

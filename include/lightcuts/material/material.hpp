@@ -1,6 +1,7 @@
 #pragma once
 
 #include <concepts>
+#include <optional>
 #include <cstddef>
 #include <type_traits>
 #include <utility>
@@ -62,6 +63,13 @@ concept CompositeMaterial = Material<M> && BoundsByComponents<M>;
 template <class M>
 concept TwoSidedMaterial = Material<M> && requires(const M& m, const glm::vec3& to_light) {
     { m.is_behind(to_light) } -> std::same_as<bool>;
+};
+
+/// A material whose `horizon()` is a normal such that it reflects nothing from directions `d` with dot(horizon(), d) <=
+/// 0, or nothing if it has none, as what light passes through.
+template <class M>
+concept MaterialWithHorizon = requires(const M& material) {
+    { material.horizon() } -> std::convertible_to<std::optional<glm::vec3>>;
 };
 
 /// Sets values[i] to `m.evaluate` of the direction in lane i, for i < count: by `evaluate_many` if the material has it.

@@ -73,7 +73,7 @@ public:
     template <class Lights>
     bool hides(const ReceiverBox& receivers, const Lights& lights, Index start) const {
         const std::optional<Passage> passage = prepare(receivers, lights);
-        return passage && hides(*passage, start);
+        return passage && walk(*passage, start).hides;
     }
 
     /// True if there are no receivers or no lights.
@@ -153,11 +153,17 @@ public:
         return passage;
     }
 
-    /// `hides` of the receivers and lights that `passage` was prepared for.
-    bool hides(const Passage& passage, Index start) const {
-        if (start >= mesh_.size() || !blocks_start_segment(passage, start)) return false;
+    /// What a walk has shown.
+    struct Walk {
+        bool hides = false;           ///< see `Flood::hides`
+        std::uint32_t triangles = 0;  ///< met
+    };
+
+    /// The walk from `start`, for the receivers and lights that `passage` was prepared for.
+    Walk walk(const Passage& passage, Index start) const {
+        if (start >= mesh_.size() || !blocks_start_segment(passage, start)) return {};
         const Side side = side_of(passage, plane_of(start, passage.reach_), start);
-        if (side == Side::unknown) return false;
+        if (side == Side::unknown) return {};
         const std::size_t most = options_.max_triangles < most_triangles ? options_.max_triangles : most_triangles;
         Met met;
         const OccluderMesh::HalfEdge first = 3 * start;
@@ -175,10 +181,10 @@ public:
                 const Shaft::Outside from = member.outside[k], to = member.outside[(k + 1u) % 3];
                 if (!passage.shaft_.may_hold(mesh_.start(edge), from, mesh_.end(edge), to)) continue;
                 const Continuation next = continuation(passage, edge, member.side, met);
-                if (next.side == Side::unknown) return false;
+                if (next.side == Side::unknown) return {false, static_cast<std::uint32_t>(met.size())};
                 const Index triangle = OccluderMesh::triangle_of(next.edge);
                 if (met.contains(triangle)) continue;
-                if (met.size() >= most) return false;
+                if (met.size() >= most) return {false, static_cast<std::uint32_t>(met.size())};
                 const bool alike = mesh_.run_alike(edge, next.edge);
                 const std::size_t entry = next.edge % 3;
                 Member beyond{triangle, next.side, static_cast<std::uint8_t>(entry), {}};
@@ -189,7 +195,7 @@ public:
                 met.add(beyond);
             }
         }
-        return true;
+        return {true, static_cast<std::uint32_t>(met.size())};
     }
 
     /// A place on the segment just behind a triangle that it crosses, where another ray along it may start.

@@ -10,6 +10,7 @@
 
 #include "../core/box.hpp"
 #include "flood.hpp"
+#include "hidden_lights.hpp"
 #include "oracle.hpp"
 
 namespace lightcuts {
@@ -31,16 +32,19 @@ public:
     /// receiver itself, and not remembered. `hidden`: a HiddenLights, always the same between two calls of `start`.
     template <class Hidden, class Lights>
     bool hides(const Hidden& hidden, const ReceiverBox& receiver, const Lights& lights) {
-        if (!has(receiver)) return hidden.hides(receiver, lights);
+        if (!has(receiver)) return hidden.hides(receiver, lights, &steps_);
         constexpr bool distant = std::same_as<Lights, DirectionBox>;
         const Box& box = box_of_lights(lights);
         Entry* entry = find(box, distant);
         if (entry->answer == Answer::none) {
-            *entry = {box, distant, hidden.hides(receivers_, lights) ? Answer::hidden : Answer::unknown};
+            *entry = {box, distant, hidden.hides(receivers_, lights, &steps_) ? Answer::hidden : Answer::unknown};
             ++count_;
         }
         return entry->answer == Answer::hidden;
     }
+
+    /// What proofs have taken since this was made.
+    const ProofSteps& steps() const { return steps_; }
 
 private:
     enum class Answer : std::uint8_t { none, unknown, hidden };
@@ -93,6 +97,7 @@ private:
     ReceiverBox receivers_;
     std::vector<Entry> entries_;  ///< a power of two of them
     std::size_t count_ = 0;
+    ProofSteps steps_;
 };
 
 }  // namespace lightcuts

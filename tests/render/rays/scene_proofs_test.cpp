@@ -6,9 +6,8 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 #include <lightcuts/source/sphere.hpp>
-#include <render/rays/opaque_mesh.hpp>
-#include <render/rays/proving_oracle.hpp>
 #include <render/rays/ray_scene.hpp>
+#include <render/rays/scene_proofs.hpp>
 #include <render/scene.hpp>
 #include <render/surfaces/surface_material.hpp>
 
@@ -37,7 +36,7 @@ Receiver before_the_wall(const glm::vec3& at) {
     return Receiver(at, render::SurfaceMaterial(point), at + glm::vec3(1e-4f, 0, 0));
 }
 
-TEST(ProvingOracle, HidesBehindWhatLetsNoLightPass) {
+TEST(SceneProofs, HideBehindWhatLetsNoLightPass) {
     render::Material glass;
     glass.transmission = 1.0f;
     const lightcuts::Box behind{{1, -1, -1}, {2, 1, 1}};
@@ -46,21 +45,15 @@ TEST(ProvingOracle, HidesBehindWhatLetsNoLightPass) {
     for (const bool opaque : {true, false}) {
         const Scene scene = wall(opaque ? render::Material{} : glass);
         const render::RayScene rays(scene);
-        const lightcuts::OccluderMesh mesh = render::opaque_mesh(scene);
-        EXPECT_EQ(mesh.size(), scene.triangles.size()) << "triangles keep their numbers";
-        const render::ProvingOracle oracle(scene, rays, mesh);
-        EXPECT_EQ(oracle.hides(receiver, behind), opaque);
-        EXPECT_EQ(oracle.hides(receiver, beyond), opaque);
-        EXPECT_FALSE(oracle.hides(receiver, lightcuts::Box{{-1.5f, -1, -1}, {-1, 1, 1}})) << "before the wall";
-        // A group answers for those in it.
-        lightcuts::SharedProofs proofs;
-        const render::ProvingOracle sharing(scene, rays, mesh, &proofs);
-        proofs.start(lightcuts::box_of(receiver));
-        EXPECT_EQ(sharing.hides(receiver, behind), opaque);
+        const render::SceneProofs proofs(scene, rays);
+        EXPECT_EQ(proofs.mesh().size(), scene.triangles.size()) << "triangles keep their numbers";
+        EXPECT_EQ(proofs.hidden().hides(receiver, behind), opaque);
+        EXPECT_EQ(proofs.hidden().hides(receiver, beyond), opaque);
+        EXPECT_FALSE(proofs.hidden().hides(receiver, lightcuts::Box{{-1.5f, -1, -1}, {-1, 1, 1}})) << "before the wall";
     }
 }
 
-TEST(ProvingOracle, HidesNoLightOfASphereThatReachesThroughTheWall) {
+TEST(SceneProofs, HideNoLightOfASphereThatReachesThroughTheWall) {
     // The sphere's lights lie behind the wall, but rays to them end where they enter the sphere, before it.
     Scene scene = wall({});
     lightcuts::SphereLight<> sphere;
@@ -68,11 +61,10 @@ TEST(ProvingOracle, HidesNoLightOfASphereThatReachesThroughTheWall) {
     sphere.radius = 1.0f;
     scene.spheres = {sphere};
     const render::RayScene rays(scene);
-    const lightcuts::OccluderMesh mesh = render::opaque_mesh(scene);
-    const render::ProvingOracle oracle(scene, rays, mesh);
+    const render::SceneProofs proofs(scene, rays);
     const Receiver receiver = before_the_wall({-5.0f, 0.3f, 0.2f});
-    EXPECT_FALSE(oracle.hides(receiver, lightcuts::box_of({1.1f, 0.0f, 0.0f})));
-    EXPECT_TRUE(oracle.hides(receiver, lightcuts::box_of({4.0f, 0.0f, 0.0f}))) << "no ray ends so far off its light";
+    EXPECT_FALSE(proofs.hidden().hides(receiver, lightcuts::box_of({1.1f, 0.0f, 0.0f})));
+    EXPECT_TRUE(proofs.hidden().hides(receiver, lightcuts::box_of({4.0f, 0.0f, 0.0f}))) << "no ray ends so far off its light";
 }
 
 }  // namespace
