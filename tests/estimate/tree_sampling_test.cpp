@@ -235,5 +235,61 @@ TEST(TreeSampling, OfDarknessIsBlack) {
     });
 }
 
+// Lights of a compact cluster are drawn by intensity alone, also where some of them are below the horizon.
+TEST(TreeSampling, IsUnbiasedOverDistantClusters) {
+    Random random(21);
+    std::vector<OmniLight<float>> lights(256);
+    for (auto& l : lights) {
+        l = {glm::vec3(random.in_box({-0.5, 9.5, -0.2}, {0.5, 10.5, 0.8})), random.real(0.01, 1.0), {}};
+    }
+    const LightTree tree(lights);
+    const std::vector receivers{Receiver(glm::vec3(0.0f), Lambert<float>{{0.0f, 0.0f, 1.0f}, 1.0f})};
+    EXPECT_TRUE(detail::is_compact(tree.clusters()[tree.topology().root()], glm::vec3(0.0f)));
+    const auto every_second = [](const auto&, const OmniLight<float>& light) { return light.intensity > 0.5f; };
+    expect_mean_is_exact<float>(
+        LightForest(tree), receivers, every_second,
+        [](const auto& forest, const auto& receiver, const auto& oracle, std::uint64_t seed, auto& scratch) {
+            return tree_sampling(forest, receiver, oracle, 4, seed, scratch);
+        });
+}
+
+// The mean over a grid of points, and the least, of boxes that hold the point or not, at any scale.
+TEST(Distances2, AreThoseOfPointsOfTheBox) {
+    Random random(22);
+    for (const float scale : {1e-18f, 1e-3f, 1.0f, 1e18f}) {
+        LaneVectors lo, hi;
+        std::vector<Box> boxes;
+        const glm::vec3 point = scale * glm::vec3(random.in_box({-1, -1, -1}, {1, 1, 1}));
+        for (int i = 0; i < lane_count; ++i) {
+            const glm::vec3 corner = scale * glm::vec3(random.in_box({-2, -2, -2}, {2, 2, 2}));
+            boxes.push_back({corner, corner + scale * glm::vec3(random.in_box({0, 0, 0}, {3, 3, 3}))});
+            lo.set(i, boxes.back().lo);
+            hi.set(i, boxes.back().hi);
+        }
+        alignas(32) Lanes mean, least_share;
+        detail::distances2(lo, hi, point, mean, least_share);
+        for (int i = 0; i < lane_count; ++i) {
+            const Box& box = boxes[static_cast<std::size_t>(i)];
+            double sum = 0.0;
+            constexpr int cells = 40;
+            for (int k = 0; k < 3; ++k) {
+                for (int j = 0; j < cells; ++j) {
+                    const double low = static_cast<double>(box.lo[k]), high = static_cast<double>(box.hi[k]);
+                    const double x = low + (high - low) * (j + 0.5) / cells - static_cast<double>(point[k]);
+                    sum += x * x / cells;
+                }
+            }
+            const double least = min_distance2(offsets(box, point));
+            const detail::Distances2 found = detail::distances2(box, point);
+            EXPECT_NEAR(found.mean, sum, 1e-3 * sum);
+            EXPECT_NEAR(found.least_share * found.mean, least, 1e-6 * sum);
+            if (!detail::in_range_of_lanes(mean[i])) continue;
+            EXPECT_NE(scale, 1e-18f);
+            EXPECT_NEAR(static_cast<double>(mean[i]), found.mean, 1e-5 * found.mean);
+            EXPECT_NEAR(static_cast<double>(least_share[i]), found.least_share, 1e-5);
+        }
+    }
+}
+
 }  // namespace
 }  // namespace lightcuts::test

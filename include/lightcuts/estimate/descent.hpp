@@ -22,64 +22,114 @@ inline double remainder_in(double u, double begin, double length) {
     return r > 0.0 ? (std::min)(r, 1.0 - unit_roundoff) : 0.0;
 }
 
+/// Asks the processor for all cache lines of an object that will be read soon.
+template <class T>
+void prefetch(const T& object) {
+#if defined(__GNUC__)
+    constexpr std::size_t line = 64;
+    const char* const first = reinterpret_cast<const char*>(&object);
+    for (std::size_t at = 0; at < sizeof(T); at += line) __builtin_prefetch(first + at);
+    __builtin_prefetch(first + sizeof(T) - 1);
+#else
+    static_cast<void>(object);
+#endif
+}
+
+/// The same for the clusters of a node's children. pre: not a leaf.
+template <class Tree>
+void prefetch_children(const Tree& tree, std::uint32_t node) {
+    prefetch(tree.clusters()[tree.topology().left(node)]);
+    prefetch(tree.clusters()[tree.topology().right(node)]);
+}
+
+/// Shares the numbers of a visit out to the children of its node, into whose parts of [0, 1) they fall, and appends
+/// those children that get some to `visits`. `part`: the children's probabilities.
+template <class Visit>
+void share_out(const Visit& visit, const ClusterTree& topology, const std::array<double, 2>& part,
+               std::span<double> numbers, std::vector<Visit>& visits) {
+    const std::uint32_t left = topology.left(visit.node), right = topology.right(visit.node);
+    if (visit.end - visit.begin == 1) {
+        // Without a branch on the number, which cannot be predicted.
+        double& u = numbers[visit.begin];
+        const bool to_right = !(u < part[0]);
+        const double begin = to_right ? part[0] : 0.0, length = part[to_right ? 1 : 0];
+        u = remainder_in(u, begin, length);
+        const std::uint32_t child = to_right ? right : left;
+        visits.push_back(
+            {child, visit.begin, visit.end, visit.weight / length, visit.resolution * length, visit.by_power});
+        prefetch(topology.words()[child]);
+        return;
+    }
+    const std::span<double> own = numbers.subspan(visit.begin, visit.end - visit.begin);
+    const auto middle = std::lower_bound(own.begin(), own.end(), part[0]);
+    const auto split = visit.begin + static_cast<std::uint32_t>(middle - own.begin());
+    const auto visit_child = [&](std::uint32_t child, std::uint32_t begin, std::uint32_t end, double before,
+                                 double length) {
+        if (begin == end) return;
+        for (double& u : numbers.subspan(begin, end - begin)) u = remainder_in(u, before, length);
+        visits.push_back({child, begin, end, visit.weight / length, visit.resolution * length, visit.by_power});
+        prefetch(topology.words()[child]);
+    };
+    visit_child(left, visit.begin, split, 0.0, part[0]);
+    visit_child(right, split, visit.end, part[0], part[1]);
+}
+
 /// Sends the random numbers of the scratch's visits down the tree: at each node a number chooses the child into whose
 /// part of [0, 1) it falls, the parts being the children's probabilities, and goes on as its place within that part. So
 /// what was stratified stays so. Numbers that meet at a leaf become one drawn light; those below whose node nothing can
-/// contribute are dropped. `scratch.visits` says which of `numbers`, rising within [0, 1), start where.
+/// contribute are dropped. `scratch.visits` says which of `numbers`, rising within [0, 1), start where. All go down by
+/// one level before any goes down by the next, so that what they wait for in memory comes at once.
 /// cost: two importances a node visited, however many numbers visit it; found for four nodes at a time.
 template <class Tree, class M, class Policy>
 void descend(const Tree& tree, std::uint32_t kind, const Receiver<M>& receiver, const Policy& policy,
              std::span<double> numbers, std::uint64_t seed, EstimateScratch<typename Tree::spectrum>& scratch) {
-    using Visit = typename EstimateScratch<typename Tree::spectrum>::Visit;
-    using Cluster = typename Tree::cluster;
-    constexpr std::size_t most = lane_count / 2;
     const ClusterTree& topology = tree.topology();
-    std::array<Visit, most> inner;
-    std::array<const Cluster*, 2 * most> children;
-    std::array<Importance, 2 * most> importances;
-    while (!scratch.visits.empty()) {
-        // Step 1: take nodes that may be bounded together, and the leaves on the way.
-        std::size_t count = 0;
-        while (!scratch.visits.empty() && count < most) {
-            const Visit& visit = scratch.visits.back();
-            const bool leaf = topology.is_leaf(visit.node);
+    auto& visits = scratch.visits;
+    auto& inner = scratch.inner_visits;
+    const auto draw_afresh = [&](auto& visit) {
+        const std::span<double> own = numbers.subspan(visit.begin, visit.end - visit.begin);
+        for (std::size_t k = 0; k < own.size(); ++k) {
+            own[k] = uniform01(hash_keys(seed, receiver.id, kind, visit.node, k));
+        }
+        std::sort(own.begin(), own.end());
+        visit.resolution = 1.0;
+    };
+    std::array<std::uint32_t, parents_at_once> nodes;
+    std::array<std::array<Importance, 2>, parents_at_once> children;
+    while (!visits.empty()) {
+        // Step 1: draw the lights that were reached.
+        inner.clear();
+        for (auto& visit : visits) {
             if (visit.begin == visit.end) {
-                // No sample reached this node.
-            } else if (leaf) {
+                // No sample starts here.
+            } else if (topology.is_leaf(visit.node)) {
+                prefetch(tree.lights()[topology.item(visit.node)]);
                 scratch.draws.push_back({topology.item(visit.node), kind, visit.weight * (visit.end - visit.begin)});
             } else {
-                children[2 * count] = &tree.clusters()[topology.left(visit.node)];
-                children[2 * count + 1] = &tree.clusters()[topology.right(visit.node)];
-                inner[count++] = visit;
+                if (visit.resolution < least_resolution) draw_afresh(visit);
+                inner.push_back(visit);
+                prefetch_children(tree, visit.node);
             }
-            scratch.visits.pop_back();
         }
-        // Step 2: bound their children side by side.
-        if (count == 0) continue;
-        find_importances(policy, receiver, std::span<const Cluster* const>(children.data(), 2 * count),
-                         importances.data());
-        // Step 3: share out their numbers.
-        for (std::size_t i = 0; i < count; ++i) {
-            const Visit& visit = inner[i];
-            const auto part = probabilities_of(std::array{importances[2 * i], importances[2 * i + 1]});
-            if (!(part[0] + part[1] > 0.0)) continue;
-            const std::span<double> own = numbers.subspan(visit.begin, visit.end - visit.begin);
-            double resolution = visit.resolution;
-            if (resolution < least_resolution) {
-                for (std::size_t k = 0; k < own.size(); ++k) {
-                    own[k] = uniform01(hash_keys(seed, receiver.id, kind, visit.node, k));
-                }
-                std::sort(own.begin(), own.end());
-                resolution = 1.0;
+        visits.clear();
+        // Step 2: share out the numbers of compact clusters.
+        const auto bounded = std::partition(inner.begin(), inner.end(), [](const auto& v) { return v.by_power; });
+        for (auto visit = inner.begin(); visit != bounded; ++visit) {
+            share_out(*visit, topology, power_shares(tree, visit->node), numbers, visits);
+        }
+        for (auto first = bounded; first != inner.end();) {
+            // Step 3: bound the children of some of the other nodes side by side.
+            const auto count = std::min(parents_at_once, static_cast<std::size_t>(inner.end() - first));
+            for (std::size_t i = 0; i < count; ++i) nodes[i] = first[static_cast<std::ptrdiff_t>(i)].node;
+            find_child_importances(policy, receiver, tree, std::span<const std::uint32_t>(nodes).first(count),
+                                   children.data());
+            // Step 4: share out their numbers.
+            for (std::size_t i = 0; i < count; ++i, ++first) {
+                const auto part = probabilities_of(children[i]);
+                if (!any(part)) continue;
+                first->by_power = is_even(tree, first->node, receiver.position, part);
+                share_out(*first, topology, part, numbers, visits);
             }
-            const auto middle = std::lower_bound(own.begin(), own.end(), part[0]);
-            for (auto u = own.begin(); u != middle; ++u) *u = remainder_in(*u, 0.0, part[0]);
-            for (auto u = middle; u != own.end(); ++u) *u = remainder_in(*u, part[0], part[1]);
-            const auto split = visit.begin + static_cast<std::uint32_t>(middle - own.begin());
-            scratch.visits.push_back(
-                {topology.left(visit.node), visit.begin, split, visit.weight / part[0], resolution * part[0]});
-            scratch.visits.push_back(
-                {topology.right(visit.node), split, visit.end, visit.weight / part[1], resolution * part[1]});
         }
     }
 }

@@ -49,6 +49,7 @@ struct EstimateScratch {
         std::uint32_t begin, end;  ///< of the numbers
         double weight;             ///< of each number: divided by its probability to come here
         double resolution;         ///< that probability, counted from where the numbers were drawn
+        bool by_power = false;     ///< lights below are drawn in proportion to intensity
     };
     /// A node from which lights are drawn, apart from the others.
     struct Stratum {
@@ -56,12 +57,14 @@ struct EstimateScratch {
         std::uint32_t kind;
         bool leaf;
         Importance importance;
+        std::array<Importance, 2> children;  ///< importances of the node's; of a leaf, of no meaning
         double priority;
     };
     std::vector<Contribution> contributions;
     std::vector<double> sums;
     std::vector<double> numbers;
     std::vector<Visit> visits;
+    std::vector<Visit> inner_visits;  ///< those of nodes that hold several lights
     std::vector<Draw> draws;
     std::vector<Stratum> strata;
     Refinement<Stratum> refinement;

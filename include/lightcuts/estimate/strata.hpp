@@ -37,8 +37,18 @@ void draw_from_strata(const Forest& forest, const Receiver<M>& receiver, const P
             const auto begin = static_cast<std::uint32_t>(scratch.numbers.size());
             add_stratified(scratch.numbers, count,
                            [&](std::size_t k) { return uniform01(hash_keys(seed, receiver.id, kind, s.node, k)); });
-            scratch.visits.push_back({s.node, begin, static_cast<std::uint32_t>(scratch.numbers.size()),
-                                      1.0 / static_cast<double>(count), 1.0});
+            typename EstimateScratch<typename Forest::spectrum>::Visit visit{
+                s.node, begin, static_cast<std::uint32_t>(scratch.numbers.size()), 1.0 / static_cast<double>(count),
+                1.0};
+            if (s.leaf) {
+                scratch.visits.push_back(visit);
+                continue;
+            }
+            // The importances that its children would have been split by serve for the first step down.
+            const auto part = probabilities_of(s.children);
+            if (!any(part)) continue;
+            visit.by_power = is_even(tree, s.node, receiver.position, part);
+            share_out(visit, tree.topology(), part, std::span(scratch.numbers), scratch.visits);
         }
         descend(tree, kind, receiver, policy, std::span(scratch.numbers), seed, scratch);
     });

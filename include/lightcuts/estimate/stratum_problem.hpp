@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -30,13 +32,36 @@ public:
 
     void split(const Node& parent, ReusableList<Node>& out) {
         forest_.visit(parent.kind, [&](const auto& tree) {
-            const auto children = child_importances(policy_, receiver_, tree, parent.node);
-            append(tree, parent.kind, tree.topology().left(parent.node), children[0], out);
-            append(tree, parent.kind, tree.topology().right(parent.node), children[1], out);
+            append(tree, parent.kind, tree.topology().left(parent.node), parent.children[0], out);
+            append(tree, parent.kind, tree.topology().right(parent.node), parent.children[1], out);
         });
     }
 
-    void evaluate(std::span<Node>) {}
+    /// Finds the importances of the new nodes' children: for splits, or for the first step of a descent.
+    void evaluate(std::span<Node> fresh) {
+        forest_.for_each([&](std::uint32_t kind, const auto& tree) {
+            const auto is_parent = [kind](const Node& n) { return n.kind == kind && !n.leaf; };
+            for (const Node& n : fresh) {
+                if (is_parent(n)) prefetch_children(tree, n.node);
+            }
+            std::array<Node*, parents_at_once> parents;
+            std::array<std::uint32_t, parents_at_once> nodes;
+            std::array<std::array<Importance, 2>, parents_at_once> importances;
+            std::size_t count = 0;
+            const auto find = [&] {
+                find_child_importances(policy_, receiver_, tree, std::span(nodes).first(count), importances.data());
+                for (std::size_t i = 0; i < count; ++i) parents[i]->children = importances[i];
+                count = 0;
+            };
+            for (Node& n : fresh) {
+                if (!is_parent(n)) continue;
+                parents[count] = &n;
+                nodes[count++] = n.node;
+                if (count == parents_at_once) find();
+            }
+            if (count > 0) find();
+        });
+    }
     double priority(const Node& n) const { return n.priority; }
     double threshold() const { return 0.0; }
     bool is_final(const Node& n) const { return n.leaf; }
@@ -54,7 +79,7 @@ private:
                 ReusableList<Node>& out) const {
         if (importance.is_zero()) return;
         const bool leaf = tree.topology().is_leaf(index);
-        out.append({index, kind, leaf, importance, leaf ? 0.0 : priority_of_(tree, index, importance)});
+        out.append({index, kind, leaf, importance, {}, leaf ? 0.0 : priority_of_(tree, index, importance)});
     }
 
     const Forest& forest_;

@@ -17,20 +17,9 @@ struct LightSample {
     double probability = 0.0;  ///< 0: the descent ended where nothing can contribute; there is no light
 };
 
-namespace detail {
-
-inline bool any(const auto& probabilities) {
-    for (const double probability : probabilities) {
-        if (probability > 0.0) return true;
-    }
-    return false;
-}
-
-}  // namespace detail
-
 /// The light that the random number `u` in [0, 1) draws: from the roots on, a child in proportion to its importance
-/// for the receiver. Every light that can contribute, shadows apart, can be drawn, as far as the bits of `u` reach.
-/// cost: two importances a level of the tree.
+/// for the receiver, and below clusters that are small and far away in proportion to intensity. Every light that can
+/// contribute, shadows apart, can be drawn, as far as the bits of `u` reach. cost: two importances a level of the tree.
 template <TreeOrForest Lights, class M, class Policy = TwoStageBounds>
 LightSample sample_light(const Lights& lights, const Receiver<M>& receiver, double u, const Policy& policy = {}) {
     const auto& forest = as_forest(lights);
@@ -41,9 +30,9 @@ LightSample sample_light(const Lights& lights, const Receiver<M>& receiver, doub
     forest.visit(sample.kind, [&](const auto& tree) {
         const ClusterTree& topology = tree.topology();
         std::uint32_t node = topology.root();
+        bool by_power = false;
         while (!topology.is_leaf(node)) {
-            const auto probabilities = detail::probabilities_of(
-                detail::child_importances(policy, receiver, tree, node));
+            const auto probabilities = detail::child_probabilities(policy, receiver, tree, node, by_power);
             if (!detail::any(probabilities)) {
                 sample = {};
                 return;
@@ -68,9 +57,9 @@ double probability_of(const Lights& lights, const Receiver<M>& receiver, std::ui
     double probability = detail::probabilities_of(detail::root_importances(policy, receiver, forest))[kind];
     forest.visit(kind, [&](const auto& tree) {
         const ClusterTree& topology = tree.topology();
+        bool by_power = false;
         for (std::uint32_t node = topology.root(); probability > 0.0 && !topology.is_leaf(node);) {
-            const auto probabilities = detail::probabilities_of(
-                detail::child_importances(policy, receiver, tree, node));
+            const auto probabilities = detail::child_probabilities(policy, receiver, tree, node, by_power);
             const std::uint32_t left = topology.left(node);
             probability *= probabilities[leaf <= left ? 0 : 1];
             node = leaf <= left ? left : topology.right(node);
