@@ -42,6 +42,7 @@ constexpr std::array fixed_scenes{FixedScene{"hall", builtin_hall, "--area-point
                                   FixedScene{"haze", builtin_haze, "--area-points, --sky-lights and --indirect"},
                                   FixedScene{"foliage", builtin_foliage, "--sky-lights and --indirect"},
                                   FixedScene{"screens", builtin_screens, "--area-points for its two ceiling panels"},
+                                  FixedScene{"classroom", builtin_classroom, "--sky-lights and --indirect"},
                                   FixedScene{"test-card", builtin_test_card, "--area-points for its glowing tiles"}};
 
 [[noreturn]] void fail(std::string_view scene, const std::string& problem) {
@@ -81,6 +82,7 @@ Scene load_builtin(std::string_view scene) {
     if (name == "omni") return builtin_omni(options.lights.value_or(10'000));
     if (name == "directional") return builtin_directional(options.lights.value_or(3'000));
     if (name == "surfaces") return builtin_surfaces(options.lights.value_or(30'000), options.rotated.value_or(true));
+    if (name == "office") return builtin_office(options.lights.value_or(1'000'000));
     if (name == "night") return builtin_night(options.lights.value_or(150));
     for (const FixedScene& fixed : fixed_scenes) {
         if (name != fixed.name) continue;
@@ -120,8 +122,8 @@ Scene load_scene(std::string_view path_or_builtin, const Shutter& shutter) {
 }
 
 std::vector<std::string> builtin_names() {
-    return {"hall",      "omni", "directional", "surfaces", "tableau", "wheel",    "focus",
-            "colonnade", "haze", "night",       "foliage",  "screens", "test-card"};
+    return {"hall", "omni",  "directional", "surfaces", "tableau",   "wheel",  "focus",    "colonnade",
+            "haze", "night", "foliage",     "screens",  "classroom", "office", "test-card"};
 }
 
 }  // namespace render

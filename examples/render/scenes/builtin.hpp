@@ -52,6 +52,15 @@ Scene builtin_foliage();
 /// an oriented light; two dim panels at the ceiling are emissive surfaces.
 Scene builtin_screens();
 
+/// A classroom of 9 x 3.2 x 7.2 m with windows in two walls, desks, chairs, shelves and plants, into which the sun
+/// shines: sun, sky and 20,000 virtual lights. Floor, walls, ceiling and window bars are one mesh that shares corners.
+Scene builtin_classroom();
+
+/// An office floor of 94 x 64 m: 200 furnished rooms along five corridors, which a sixth one joins; half of the doors
+/// are open. `lights` oriented lights on hanging panels and desk lamps, nearly all of which are
+/// hidden from any point.
+Scene builtin_office(std::size_t lights);
+
 /// A glTF file, written and read in memory, with 5 rows of 6 tiles, one for each feature of the format: see
 /// docs/renderer.md. The left half of a tile uses the feature, the right half has as a plain color what a correct
 /// reader makes of it. Below, pools of light of a point, a spot and a sphere.

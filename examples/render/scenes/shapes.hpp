@@ -1,10 +1,13 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include <glm/ext/vector_int3.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -49,6 +52,15 @@ struct Solid {
     bool contains(const glm::vec3& p) const;
 };
 
+/// Planes across each axis, rising, that cut space into the cells of `Modeller::blocks`.
+struct BlockGrid {
+    std::array<std::vector<float>, 3> planes;
+
+    int cells(int axis) const { return static_cast<int>(planes[static_cast<std::size_t>(axis)].size()) - 1; }
+    /// The middle of a cell.
+    glm::vec3 middle(const glm::ivec3& cell) const;
+};
+
 /// Builds a scene's mesh from simple shapes, each with the current `place` and `material`. Faces look outwards.
 struct Modeller {
     explicit Modeller(Scene& to) : scene(to) {}
@@ -73,6 +85,12 @@ struct Modeller {
 
     /// An axis-aligned box.
     void box(const glm::vec3& low, const glm::vec3& high);
+
+    /// The surface of the solid cells of `grid`, as one mesh that shares corners and has no gaps. `solid(cell)` says
+    /// which are; `paint_of(cell, axis, side)` is the material of the face of a solid cell to the side -1 or +1 along
+    /// an axis. Cells are counted from 0 along x, y and z.
+    void blocks(const BlockGrid& grid, const std::function<bool(const glm::ivec3&)>& solid,
+                const std::function<std::uint32_t(const glm::ivec3&, int, int)>& paint_of);
 
     /// Turns a profile of (radius, height) about the y axis. The profile goes upwards along the outside; a point
     /// given twice is a sharp edge. Closed, if its ends have radius 0.

@@ -193,14 +193,27 @@ TEST(Screens, EveryPixelIsALight) {
     EXPECT_EQ(s.oriented.size(), 614'400u + 2u * 64u);
 }
 
+TEST(Classroom, IsLitBySunSkyAndWhatTheyLight) {
+    Options options;
+    const Scene s = lit("classroom", options);
+    EXPECT_EQ(s.sun_lights, 64u);
+    EXPECT_EQ(s.sky_lights, 5000u);
+    EXPECT_EQ(options.indirect, 20'000u);
+
+    Options noon;
+    noon.sun_sky = lightcuts::SunPosition{60.0, 90.0};
+    EXPECT_NEAR(lit("classroom", noon).background.daylight->towards_sun().y, std::sin(std::numbers::pi / 3.0), 1e-6);
+}
+
 class BuiltinPictures : public Programs {};
 
 TEST_F(BuiltinPictures, AreNeitherBlackNorNotANumber) {
     for (const std::string& name : render::builtin_names()) {
-        const std::string less = name == "colonnade" ? " --sky-lights 500 --indirect 300 --clamp off"
-                                 : name == "haze"    ? " --sky-lights 500 --indirect 300"
-                                 : name == "night"   ? " --area-points 1 --indirect 300"
-                                                     : "";
+        const std::string less = name == "colonnade"   ? " --sky-lights 500 --indirect 300 --clamp off"
+                                 : name == "classroom" ? " --sky-lights 500 --indirect 300"
+                                 : name == "haze"      ? " --sky-lights 500 --indirect 300"
+                                 : name == "night"     ? " --area-points 1 --indirect 300"
+                                                       : "";
         const auto result = render("builtin:" + name + " --quiet --size 12x9 --error-ratio 0.1" + less);
         ASSERT_EQ(result.status, 0) << name << ": " << result.err;
         const render::Picture picture = render::read_exr(folder / "render.exr");

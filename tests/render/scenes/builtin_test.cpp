@@ -21,9 +21,10 @@ using render::Scene;
 using testing::HasSubstr;
 
 TEST(Builtin, AllLoadWithCameras) {
-    EXPECT_EQ(render::builtin_names(),
-              (std::vector<std::string>{"hall", "omni", "directional", "surfaces", "tableau", "wheel", "focus",
-                                        "colonnade", "haze", "night", "foliage", "screens", "test-card"}));
+    EXPECT_EQ(
+        render::builtin_names(),
+        (std::vector<std::string>{"hall", "omni", "directional", "surfaces", "tableau", "wheel", "focus", "colonnade",
+                                  "haze", "night", "foliage", "screens", "classroom", "office", "test-card"}));
     for (const std::string& name : render::builtin_names()) {
         const Scene s = load_scene("builtin:" + name);
         EXPECT_EQ(s.name, "builtin:" + name);
@@ -66,7 +67,8 @@ TEST(Builtin, LightCounts) {
     EXPECT_EQ(load_scene("builtin:omni").omni.size(), 10'000u);
     EXPECT_EQ(load_scene("builtin:directional").directional.size(), 3'000u);
     EXPECT_EQ(load_scene("builtin:surfaces").oriented.size(), 30'000u);
-    for (const char* name : {"omni", "directional", "surfaces"}) {
+    EXPECT_EQ(load_scene("builtin:office").oriented.size(), 1'000'000u);
+    for (const char* name : {"omni", "directional", "surfaces", "office"}) {
         for (const std::size_t count : {1u, 37u, 5'000u}) {
             const std::string scene = std::string("builtin:") + name + "?lights=" + std::to_string(count);
             EXPECT_EQ(load_scene(scene).light_count(), count) << scene;
@@ -85,15 +87,15 @@ TEST(Builtin, PowerDoesNotDependOnTheCount) {
         return sum;
     };
     EXPECT_NEAR(power("builtin:night") / power("builtin:night?lights=3000"), 1.0, 0.05);
-    for (const std::string name : {"builtin:omni", "builtin:directional", "builtin:surfaces"}) {
+    for (const std::string name : {"builtin:omni", "builtin:directional", "builtin:surfaces", "builtin:office"}) {
         EXPECT_NEAR(power(name + "?lights=3000") / power(name + "?lights=30000"), 1.0, 0.05) << name;
     }
 }
 
 TEST(Builtin, AreDeterministic) {
-    for (const std::string name :
-         {"hall", "omni?lights=500", "directional?lights=500", "surfaces?lights=500", "tableau", "wheel", "focus",
-          "colonnade", "haze", "night?lights=20", "foliage", "screens", "test-card"}) {
+    for (const std::string name : {"hall", "omni?lights=500", "directional?lights=500", "surfaces?lights=500",
+                                   "tableau", "wheel", "focus", "colonnade", "haze", "night?lights=20", "foliage",
+                                   "screens", "classroom", "office?lights=500", "test-card"}) {
         const Scene a = load_scene("builtin:" + name);
         const Scene b = load_scene("builtin:" + name);
         EXPECT_EQ(a.positions, b.positions);
