@@ -40,6 +40,8 @@ std::vector<const ReportMethod*> report_methods(const render::Options& scene) {
         {"Ward", "ward", "threshold", ward_threshold, {0.5, 0.2, 0.1, 0.05}},
         {"power", "power", "samples", samples, counts},
         {"tree sampling", "tree-sampling", "samples", samples, counts},
+        {"resampled", "resampled", "samples", samples, counts},
+        {"resampled by power", "resampled-power", "samples", samples, counts},
         {"adaptive splitting", "adaptive-splitting", "samples", samples, counts},
         {"stochastic lightcuts", "stochastic-lightcuts", "samples", samples, counts},
         {"lightcuts", "lightcuts", "error ratio", error_ratio<1>, ratios},

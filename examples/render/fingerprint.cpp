@@ -54,6 +54,7 @@ void add_options(Fingerprint& print, const Options& o) {
     add("--adaptation", o.adaptation ? text_of(*o.adaptation) : "auto");
     add("--samples", o.samples);
     add("--ward-threshold", o.ward_threshold);
+    add("--candidates", o.candidates);
     add("--splitting-threshold", o.splitting_threshold);
     add("--builder", o.builder);
     add("--visibility-bounds", o.visibility_bounds);

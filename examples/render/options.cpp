@@ -17,12 +17,13 @@ namespace render {
 
 namespace {
 
-constexpr double longest_time = 1e6;            ///< seconds
+constexpr double longest_time = 1e6;  ///< seconds
+constexpr std::uint32_t most_candidates = 65536;
 constexpr std::uint32_t most_instants = 65536;  ///< as many as time vectors hold
 
 const std::vector<std::string> methods = {
-    "exhaustive", "lightcuts",     "multidimensional",   "unified-cut",         "ward",
-    "power",      "tree-sampling", "adaptive-splitting", "stochastic-lightcuts"};
+    "exhaustive", "lightcuts",       "multidimensional",   "unified-cut",         "ward", "power", "tree-sampling",
+    "resampled",  "resampled-power", "adaptive-splitting", "stochastic-lightcuts"};
 const std::vector<std::string> later_methods = {"reconstruction", "row-column"};
 const std::vector<std::string> pair_sides = {"bounds", "sizes"};
 const std::vector<std::string> bounds_modes = {"auto", "on", "off"};
@@ -189,6 +190,8 @@ Options parse_options(int argc, const char* const* argv) {
              }
          });
     count("--samples", "light samples of the sampling methods (64)", 1, many, options.samples);
+    count("--candidates", "lights drawn for each sample that the resampling methods keep (32)", 1, most_candidates,
+          options.candidates);
     text("--ward-threshold", "R", "share of the total that Ward's method may leave untested (0.1)",
          [&](const std::string& s) {
              options.ward_threshold = number_in("--ward-threshold", s, 0.0f, huge, "a number of at least 0");

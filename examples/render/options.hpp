@@ -48,6 +48,7 @@ struct Options {
     std::uint32_t representatives = 1;       ///< per node of a tree, 1 to 32
     std::optional<float> adaptation = 0.0f;  ///< radiance the eye is adapted to; empty: measured (`auto`)
     std::uint32_t samples = 64;              ///< of the sampling methods
+    std::uint32_t candidates = 32;           ///< for each sample, of the methods that resample
     float ward_threshold = 0.1f;
     float splitting_threshold = 0.1f;
     std::string builder = "binned";          ///< binned, agglomerate or longest-axis

@@ -8,6 +8,7 @@
 #include <lightcuts/estimate/adaptive_splitting.hpp>
 #include <lightcuts/estimate/exhaustive.hpp>
 #include <lightcuts/estimate/power.hpp>
+#include <lightcuts/estimate/resampled.hpp>
 #include <lightcuts/estimate/stochastic_lightcuts.hpp>
 #include <lightcuts/estimate/tree_sampling.hpp>
 #include <lightcuts/estimate/ward.hpp>
@@ -101,6 +102,25 @@ struct TreeSampling : Sampling {
     }
 };
 
+struct Resampled : Sampling {
+    Resampled(const Forest& forest, const Options& options)
+        : Sampling(forest, options), resampling{options.samples, options.candidates} {}
+    template <class R, class Oracle, class Scratch>
+    auto operator()(const Forest& forest, const R& receiver, const Oracle& oracle, Scratch& scratch) const {
+        return lightcuts::resampled_sampling(forest, receiver, oracle, resampling, seed, scratch);
+    }
+    lightcuts::ResamplingOptions resampling;
+};
+
+struct ResampledPower : Resampled {
+    ResampledPower(const Forest& forest, const Options& options) : Resampled(forest, options), distribution(forest) {}
+    template <class R, class Oracle, class Scratch>
+    auto operator()(const Forest& forest, const R& receiver, const Oracle& oracle, Scratch& scratch) const {
+        return lightcuts::resampled_sampling(forest, distribution, receiver, oracle, resampling, seed, scratch);
+    }
+    lightcuts::PowerDistribution distribution;
+};
+
 struct AdaptiveSplitting : Sampling {
     AdaptiveSplitting(const Forest& forest, const Options& options)
         : Sampling(forest, options), threshold(options.splitting_threshold) {}
@@ -126,6 +146,10 @@ std::unique_ptr<Shader> make_shader(const Scene& scene, const RayScene& rays, co
     if (options.method == "ward") return std::make_unique<EstimateShader<Ward>>(scene, rays, options);
     if (options.method == "power") return std::make_unique<EstimateShader<Power>>(scene, rays, options);
     if (options.method == "tree-sampling") return std::make_unique<EstimateShader<TreeSampling>>(scene, rays, options);
+    if (options.method == "resampled") return std::make_unique<EstimateShader<Resampled>>(scene, rays, options);
+    if (options.method == "resampled-power") {
+        return std::make_unique<EstimateShader<ResampledPower>>(scene, rays, options);
+    }
     if (options.method == "adaptive-splitting") {
         return std::make_unique<EstimateShader<AdaptiveSplitting>>(scene, rays, options);
     }

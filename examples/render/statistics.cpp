@@ -53,6 +53,7 @@ Json options_json(const RunReport& report) {
     json["adaptation"] = as_written(report.adaptation);
     json["samples"] = o.samples;
     json["ward_threshold"] = as_written(o.ward_threshold);
+    json["candidates"] = o.candidates;
     json["splitting_threshold"] = as_written(o.splitting_threshold);
     json["builder"] = o.builder;
     json["visibility_bounds"] = o.visibility_bounds;

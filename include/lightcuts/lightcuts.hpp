@@ -10,6 +10,7 @@
 #include "estimate/adaptive_splitting.hpp"
 #include "estimate/exhaustive.hpp"
 #include "estimate/power.hpp"
+#include "estimate/resampled.hpp"
 #include "estimate/stochastic_lightcuts.hpp"
 #include "estimate/tree_sampling.hpp"
 #include "estimate/ward.hpp"

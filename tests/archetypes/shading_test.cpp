@@ -9,6 +9,7 @@
 #include <lightcuts/estimate/adaptive_splitting.hpp>
 #include <lightcuts/estimate/exhaustive.hpp>
 #include <lightcuts/estimate/power.hpp>
+#include <lightcuts/estimate/resampled.hpp>
 #include <lightcuts/estimate/stochastic_lightcuts.hpp>
 #include <lightcuts/estimate/tree_sampling.hpp>
 #include <lightcuts/estimate/ward.hpp>
@@ -54,6 +55,7 @@ void expect_shading(const Forest& forest, float visible) {
     // With a sample for each light, splitting goes down to single lights.
     const auto estimate_all = [&](const Bands& expected, const auto& oracle, const auto&... policy) {
         EXPECT_GT(tree_sampling(forest, receiver, oracle, 64, 1, scratch, policy...).radiance[0], 0.0f);
+        EXPECT_GT(resampled_sampling(forest, receiver, oracle, {16, 4}, 1, scratch, policy...).radiance[0], 0.0f);
         expect_near(adaptive_splitting(forest, receiver, oracle, 0.0f, 64, 1, scratch, policy...).radiance, expected);
         expect_near(stochastic_lightcuts(forest, receiver, oracle, 64, 1, scratch, policy...).radiance, expected);
         EXPECT_GT(sample_light(forest, receiver, 0.5, policy...).probability, 0.0);

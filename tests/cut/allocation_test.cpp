@@ -7,6 +7,7 @@
 #include <lightcuts/estimate/adaptive_splitting.hpp>
 #include <lightcuts/estimate/exhaustive.hpp>
 #include <lightcuts/estimate/power.hpp>
+#include <lightcuts/estimate/resampled.hpp>
 #include <lightcuts/estimate/stochastic_lightcuts.hpp>
 #include <lightcuts/estimate/tree_sampling.hpp>
 #include <lightcuts/estimate/ward.hpp>
@@ -39,6 +40,7 @@ TEST(Allocation, DoesNotHappenOnceTheScratchIsWarm) {
             ward(forest, receiver, batched, 0.1f, estimates);
             power_sampling(forest, distribution, receiver, batched, 64, 1, estimates);
             tree_sampling(forest, receiver, batched, 64, 1, estimates);
+            resampled_sampling(forest, receiver, batched, {16, 8}, 1, estimates);
             adaptive_splitting(forest, receiver, batched, 0.1f, 64, 1, estimates);
             stochastic_lightcuts(forest, receiver, batched, 64, 1, estimates);
         }

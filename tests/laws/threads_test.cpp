@@ -13,6 +13,7 @@
 #include <lightcuts/estimate/adaptive_splitting.hpp>
 #include <lightcuts/estimate/exhaustive.hpp>
 #include <lightcuts/estimate/power.hpp>
+#include <lightcuts/estimate/resampled.hpp>
 #include <lightcuts/estimate/stochastic_lightcuts.hpp>
 #include <lightcuts/estimate/tree_sampling.hpp>
 #include <lightcuts/estimate/ward.hpp>
@@ -184,6 +185,9 @@ TEST(Threads, EstimateTheSameLightByLight) {
         });
         expect_same_by_threads(receivers.size(), [&](std::size_t i, EstimateScratch<V>& scratch) {
             return tree_sampling(scene.forest, receivers[i], oracle, 32, 7, scratch);
+        });
+        expect_same_by_threads(receivers.size(), [&](std::size_t i, EstimateScratch<V>& scratch) {
+            return resampled_sampling(scene.forest, receivers[i], oracle, {8, 16}, 7, scratch);
         });
         expect_same_by_threads(receivers.size(), [&](std::size_t i, EstimateScratch<V>& scratch) {
             return adaptive_splitting(scene.forest, receivers[i], oracle, 0.1f, 32, 7, scratch);

@@ -78,8 +78,8 @@ TEST_F(Programs, ProgressStaysOffFiles) {
 }
 
 TEST_F(Programs, MatchTheClosedFormOfOneOmniLight) {
-    for (const std::string method :
-         {"exhaustive", "lightcuts", "tree-sampling", "adaptive-splitting", "stochastic-lightcuts"}) {
+    for (const std::string method : {"exhaustive", "lightcuts", "tree-sampling", "resampled", "resampled-power",
+                                     "adaptive-splitting", "stochastic-lightcuts"}) {
         ASSERT_EQ(render("floor.obj --lights one.csv --size 33x25 --aov depth,normal --method " + method + view).status,
                   0);
         const Picture picture = render::read_exr(folder / "render.exr");
@@ -131,7 +131,8 @@ TEST_F(Programs, AgreeWithinTheStatedError) {
 TEST_F(Programs, SampleLessWronglyWithMoreSamples) {
     const std::string scene = "room.obj --area-points 500 --size 48x36 --quiet" + view;
     ASSERT_EQ(render(scene + "--method exhaustive -o exact.exr").status, 0);
-    for (const std::string method : {"tree-sampling", "adaptive-splitting", "stochastic-lightcuts"}) {
+    for (const std::string method :
+         {"tree-sampling", "resampled", "resampled-power", "adaptive-splitting", "stochastic-lightcuts"}) {
         const auto error_of = [&](const std::string& samples) {
             EXPECT_EQ(render(scene + "--reference exact.exr --samples " + samples + " --method " + method).status, 0);
             const Json json = report("render.json");
@@ -148,6 +149,8 @@ TEST_F(Programs, SampleLessWronglyWithMoreSamples) {
         error_of("64 --seed 2");
         EXPECT_NE(folder.read("render.exr"), picture) << method;
     }
+    ASSERT_EQ(render(scene + "--method resampled --candidates 8").status, 0);
+    EXPECT_EQ(report("render.json").at("options").at("candidates"), 8);
     ASSERT_EQ(render(scene + "--method adaptive-splitting --splitting-threshold 0.5").status, 0);
     EXPECT_EQ(report("render.json").at("options").at("splitting_threshold"), 0.5);
 }
@@ -244,6 +247,7 @@ TEST_F(Programs, RefuseBadInputInOneLine) {
         {"room.obj --max-cut -3", 2, "--max-cut"},
         {"room.obj --samples 0", 2, "--samples"},
         {"room.obj --splitting-threshold -1", 2, "--splitting-threshold"},
+        {"room.obj --candidates 0", 2, "--candidates"},
         {"room.obj --representatives 33", 2, "--representatives"},
         {"room.obj --threads 0", 2, "--threads"},
         {"room.obj --builder oak", 2, "--builder"},

@@ -165,15 +165,14 @@ S weighted(const S& radiance, double weight) {
     return finite(make_spectrum<S>([&](int c) { return static_cast<double>(channel(radiance, c)) * weight; }));
 }
 
-/// The weighted sum over the scratch's drawn lights. Those whose transfer is zero cost no shadow ray.
-template <class Forest, class M, class Oracle>
-Estimate<typename Forest::spectrum> estimate_draws(const Forest& forest, const Receiver<M>& receiver,
-                                                   const Oracle& oracle,
-                                                   EstimateScratch<typename Forest::spectrum>& scratch) {
+/// What each of the scratch's drawn lights contributes if nothing shadows it, times its weight; into the scratch's
+/// contributions. Those whose transfer is zero are left out.
+template <class Forest, class M>
+void find_contributions(const Forest& forest, const Receiver<M>& receiver,
+                        EstimateScratch<typename Forest::spectrum>& scratch) {
     static_assert(Material<std::remove_cvref_t<M>>,
                   "a material needs evaluate(to_light) const, which returns a Spectrum");
     using S = typename Forest::spectrum;
-    using Contribution = typename EstimateScratch<S>::Contribution;
     const auto& draws = scratch.draws;
     scratch.contributions.clear();
     LaneSpectra<S> transfer;
@@ -197,12 +196,29 @@ Estimate<typename Forest::spectrum> estimate_draws(const Forest& forest, const R
         });
         begin = end;
     }
+}
+
+/// The sum of those of the scratch's contributions that are visible. cost: a shadow ray each.
+template <class Forest, class M, class Oracle>
+Estimate<typename Forest::spectrum> sum_visible(const Forest& forest, const Receiver<M>& receiver, const Oracle& oracle,
+                                                EstimateScratch<typename Forest::spectrum>& scratch) {
+    using S = typename Forest::spectrum;
+    using Contribution = typename EstimateScratch<S>::Contribution;
     Estimate<S> result;
     RadianceSum<S> sum;
     result.queries = ask(forest, receiver, oracle, scratch, std::span<const Contribution>(scratch.contributions),
                          [&](const Contribution& c, const auto& visibility) { sum.add_seen(c.radiance, visibility); });
     result.radiance = sum.value();
     return result;
+}
+
+/// The weighted sum over the scratch's drawn lights. Those whose transfer is zero cost no shadow ray.
+template <class Forest, class M, class Oracle>
+Estimate<typename Forest::spectrum> estimate_draws(const Forest& forest, const Receiver<M>& receiver,
+                                                   const Oracle& oracle,
+                                                   EstimateScratch<typename Forest::spectrum>& scratch) {
+    find_contributions(forest, receiver, scratch);
+    return sum_visible(forest, receiver, oracle, scratch);
 }
 
 }  // namespace lightcuts::detail

@@ -2,7 +2,7 @@
 
 #include "../core/discrete_distribution.hpp"
 #include "../core/random.hpp"
-#include "estimate.hpp"
+#include "descent.hpp"
 
 namespace lightcuts {
 
@@ -40,36 +40,40 @@ private:
     std::vector<std::uint32_t> first_;  ///< of each kind
 };
 
+namespace detail {
+
+/// Draws `samples` lights in proportion to intensity, with stratified random numbers.
+template <Spectrum S>
+void draw_by_power(const PowerDistribution& distribution, std::uint32_t receiver, std::uint32_t samples,
+                   std::uint64_t seed, EstimateScratch<S>& scratch) {
+    scratch.draws.clear();
+    if (distribution.empty()) return;
+    for (std::uint32_t k = 0; k < samples; ++k) {
+        const double jitter = uniform01(hash_keys(seed, receiver, k));
+        const auto choice = distribution.choose((k + jitter) / samples);
+        const double weight = 1.0 / (choice.probability * samples);
+        // Stratified numbers rise, so a light that is drawn again is drawn at once.
+        auto& draws = scratch.draws;
+        if (!draws.empty() && draws.back().light == choice.light && draws.back().kind == choice.kind) {
+            draws.back().weight += weight;
+        } else {
+            draws.push_back({choice.light, choice.kind, weight});
+        }
+    }
+}
+
+}  // namespace detail
+
 /// Estimates the sum over all lights from `samples` of them, drawn in proportion to intensity and stratified.
-/// Unbiased. cost: `samples` lights evaluated and shadow rays, whatever the number of lights.
+/// Unbiased. cost: up to `samples` lights evaluated and shadow rays, whatever the number of lights; a light drawn more
+/// than once counts once.
 template <TreeOrForest Lights, class M, class Oracle>
 Estimate<forest_spectrum<Lights>> power_sampling(const Lights& lights, const PowerDistribution& distribution,
                                                  const Receiver<M>& receiver, const Oracle& oracle,
                                                  std::uint32_t samples, std::uint64_t seed,
                                                  EstimateScratch<forest_spectrum<Lights>>& scratch) {
-    const auto& forest = as_forest(lights);
-    using S = forest_spectrum<Lights>;
-    using Contribution = typename EstimateScratch<S>::Contribution;
-    Estimate<S> result;
-    if (distribution.empty()) return result;
-    scratch.contributions.clear();
-    for (std::uint32_t k = 0; k < samples; ++k) {
-        const double jitter = uniform01(hash_keys(seed, receiver.id, k));
-        const auto choice = distribution.choose((k + jitter) / samples);
-        const auto weight = static_cast<float>(1.0 / (choice.probability * samples));
-        forest.visit(choice.kind, [&](const auto& tree) {
-            detail::for_each_unshadowed(
-                receiver, tree.lights().subspan(choice.light, 1), [&](std::uint32_t, const S& radiance) {
-                    scratch.contributions.push_back({finite(S(radiance * weight)), choice.light, choice.kind});
-                });
-        });
-    }
-    detail::RadianceSum<S> sum;
-    result.queries = detail::ask(
-        forest, receiver, oracle, scratch, std::span<const Contribution>(scratch.contributions),
-        [&](const Contribution& c, const auto& visibility) { sum.add_seen(c.radiance, visibility); });
-    result.radiance = sum.value();
-    return result;
+    detail::draw_by_power(distribution, receiver.id, samples, seed, scratch);
+    return detail::estimate_draws(as_forest(lights), receiver, oracle, scratch);
 }
 
 /// A single estimate by power sampling, with storage of its own. cost: it allocates.

@@ -81,21 +81,17 @@ std::vector<std::uint32_t> leaves_of(const LightTree<L>& tree) {
     return leaves;
 }
 
-/// Estimates the sum over all lights from `samples` of them, drawn by stochastic descent of the trees with stratified
-/// random numbers [Shirley et al. 1996; Conty Estevez and Kulla 2018]. Unbiased.
-/// cost: up to `samples` shadow rays; two importances for each node that a descent visits, shared by all that do.
-template <TreeOrForest Lights, class M, class Oracle, class Policy = TwoStageBounds>
-Estimate<forest_spectrum<Lights>> tree_sampling(const Lights& lights, const Receiver<M>& receiver, const Oracle& oracle,
-                                                std::uint32_t samples, std::uint64_t seed,
-                                                EstimateScratch<forest_spectrum<Lights>>& scratch,
-                                                const Policy& policy = {}) {
-    const auto& forest = as_forest(lights);
+namespace detail {
+
+/// Draws `samples` lights by stochastic descent from the roots, with stratified random numbers.
+template <class Forest, class M, class Policy>
+void draw_from_roots(const Forest& forest, const Receiver<M>& receiver, const Policy& policy, std::uint32_t samples,
+                     std::uint64_t seed, EstimateScratch<typename Forest::spectrum>& scratch) {
     scratch.draws.clear();
-    const auto roots = detail::probabilities_of(detail::root_importances(policy, receiver, forest));
-    if (!detail::any(roots)) return {};
+    const auto roots = probabilities_of(root_importances(policy, receiver, forest));
+    if (!any(roots)) return;
     scratch.numbers.clear();
-    detail::add_stratified(scratch.numbers, samples,
-                           [&](std::size_t k) { return uniform01(hash_keys(seed, receiver.id, k)); });
+    add_stratified(scratch.numbers, samples, [&](std::size_t k) { return uniform01(hash_keys(seed, receiver.id, k)); });
     std::span<double> numbers(scratch.numbers);
     double begin = 0.0;
     forest.for_each([&](std::uint32_t kind, const auto& tree) {
@@ -107,12 +103,26 @@ Estimate<forest_spectrum<Lights>> tree_sampling(const Lights& lights, const Rece
         const auto end = last ? numbers.end() : std::lower_bound(numbers.begin(), numbers.end(), begin + probability);
         const std::span<double> own = numbers.first(static_cast<std::size_t>(end - numbers.begin()));
         numbers = numbers.subspan(own.size());
-        for (double& u : own) u = detail::remainder_in(u, begin, probability);
+        for (double& u : own) u = remainder_in(u, begin, probability);
         begin += probability;
         scratch.visits.push_back({tree.topology().root(), 0, static_cast<std::uint32_t>(own.size()),
                                   1.0 / (samples * probability), probability});
-        detail::descend(tree, kind, receiver, policy, own, seed, scratch);
+        descend(tree, kind, receiver, policy, own, seed, scratch);
     });
+}
+
+}  // namespace detail
+
+/// Estimates the sum over all lights from `samples` of them, drawn by stochastic descent of the trees with stratified
+/// random numbers [Shirley et al. 1996; Conty Estevez and Kulla 2018]. Unbiased.
+/// cost: up to `samples` shadow rays; two importances for each node that a descent visits, shared by all that do.
+template <TreeOrForest Lights, class M, class Oracle, class Policy = TwoStageBounds>
+Estimate<forest_spectrum<Lights>> tree_sampling(const Lights& lights, const Receiver<M>& receiver, const Oracle& oracle,
+                                                std::uint32_t samples, std::uint64_t seed,
+                                                EstimateScratch<forest_spectrum<Lights>>& scratch,
+                                                const Policy& policy = {}) {
+    const auto& forest = as_forest(lights);
+    detail::draw_from_roots(forest, receiver, policy, samples, seed, scratch);
     return detail::estimate_draws(forest, receiver, oracle, scratch);
 }
 
