@@ -1,6 +1,6 @@
 /// What it is worth to know that whole clusters are hidden: cuts, rays, time and error without that knowledge, limited
-/// and not; with what `HiddenLights` proves, at each point and for groups of them; and with all of it. Processor time
-/// of one thread.
+/// and not; with what `HiddenLights` proves, at each point and for groups of them; with what is learned; and with all
+/// of it. Processor time of one thread.
 
 #include <algorithm>
 #include <array>
@@ -15,8 +15,10 @@
 #include <CLI/CLI.hpp>
 #include <glm/vec3.hpp>
 #include <lightcuts/bound/policy.hpp>
+#include <lightcuts/cut/learned_visibility.hpp>
 #include <lightcuts/cut/shade_in_groups.hpp>
 
+#include "coarse_picture.hpp"
 #include "error_sum.hpp"
 #include "figures.hpp"
 #include "rays/scene_proofs.hpp"
@@ -66,13 +68,25 @@ private:
     std::array<std::vector<bool>, Forest::kinds> visible_;
 };
 
+/// The receivers of a coarse picture, as the renderer takes them to learn from.
+std::vector<Receiver> pilots_of(const Workload& work, int width, int height) {
+    const render::CoarseGrid grid = render::pilot_grid(width, height);
+    std::vector<Receiver> pilots;
+    for (const render::SurfacePoint& p : points_seen(work.scene(), work.rays(), grid.columns, grid.rows)) {
+        pilots.push_back(
+            {p.position, render::SurfaceMaterial(p), p.ray_origin, static_cast<std::uint32_t>(pilots.size())});
+    }
+    return pilots;
+}
+
 struct Row {
     double cut = 0, rays = 0, at_limit = 0;
     ErrorSum error;
 };
 
+/// `width` x `height`: of the picture that the rays of pilots are shared out to.
 template <class Forest>
-void measure(const Workload& work, const Forest& forest, std::size_t limit) {
+void measure(const Workload& work, const Forest& forest, std::size_t limit, int width, int height) {
     const render::OpaqueOracle oracle = work.oracle();
     std::optional<render::SceneProofs> proofs;
     const double set_up = seconds([&] { proofs.emplace(work.scene(), work.rays()); });
@@ -116,11 +130,11 @@ void measure(const Workload& work, const Forest& forest, std::size_t limit) {
         }
         return time;
     };
-    const auto alone = [&](const char* name, std::size_t max_cut) {
+    const auto alone = [&](const char* name, std::size_t max_cut, const auto& sees) {
         print(name, by_tiles([&](auto receivers, auto out) {
                   for (std::size_t i = 0; i < receivers.size(); i += 16) {
                       const std::size_t count = std::min<std::size_t>(16, receivers.size() - i);
-                      lightcuts::shade(forest, receivers.subspan(i, count), oracle, out.subspan(i, count), scratch.cuts,
+                      lightcuts::shade(forest, receivers.subspan(i, count), sees, out.subspan(i, count), scratch.cuts,
                                        options_of(max_cut));
                   }
               }));
@@ -131,8 +145,8 @@ void measure(const Workload& work, const Forest& forest, std::size_t limit) {
                                              options_of(max_cut), groups);
               }));
     };
-    alone("limited", limit);
-    alone("without limit", 0);
+    alone("limited", limit, oracle);
+    alone("without limit", 0, oracle);
     proving("own proofs, limited", limit, {.largest_group = 1});
     proving("own proofs, without limit", 0, {.largest_group = 1});
     for (const std::size_t group : {16u, 64u, 256u}) {
@@ -140,6 +154,17 @@ void measure(const Workload& work, const Forest& forest, std::size_t limit) {
         proving(name + ", limited", limit, {.largest_group = group, .own_proofs_at_limit = false});
         proving(name + ", own at the limit", limit, {.largest_group = group});
     }
+    const std::vector<Receiver> pilots = pilots_of(work, width, height);
+    const lightcuts::LearningOptions learning{
+        .cut = {.max_cut = limit, .seed = work.options().seed, .clamp = work.clamp()}};
+    lightcuts::LearnedVisibility learned;
+    const double learning_time = seconds(
+        [&] { learned = lightcuts::LearnedVisibility(forest, std::span<const Receiver>(pilots), oracle, learning); });
+    const double pixels = static_cast<double>(width) * static_cast<double>(height);
+    std::printf("  %zu pilots: %.1f rays and %.1f us more for each of %dx%d points\n", pilots.size(),
+                static_cast<double>(learned.rays()) / pixels, 1e6 * learning_time / pixels, width, height);
+    const lightcuts::LearnedOracle likely(oracle, learned);
+    alone("learned, limited", limit, likely);
     HiddenKnown<Forest> known(forest, oracle);
     print("hidden known, limited", by_tiles([&](auto receivers, auto out) {
               for (std::size_t i = 0; i < receivers.size(); ++i) {
@@ -154,17 +179,20 @@ void measure(const Workload& work, const Forest& forest, std::size_t limit) {
 int main(int argc, char** argv) {
     std::vector<std::string> scenes{"builtin:hall?sun-sky=35,120&indirect=20000&ground=0", "builtin:hall"};
     int width = 20, height = 15;
+    int picture_width = 320, picture_height = 180;
     std::size_t limit = 1000;
     CLI::App app{"Cuts with proofs that clusters are hidden"};
     app.add_option("scenes", scenes, "files or builtin:NAME, and ?KEY=VALUE&... for their lights");
     app.add_option("--width", width, "of the picture, pixels");
     app.add_option("--height", height, "of the picture, pixels");
+    app.add_option("--picture-width", picture_width, "of the picture that shares what is learned, pixels");
+    app.add_option("--picture-height", picture_height, "of that picture, pixels");
     app.add_option("--max-cut", limit, "where cuts are limited");
     CLI11_PARSE(app, argc, argv);
     for (const std::string& scene : scenes) {
         std::printf("%s\n", scene.c_str());
         const Workload work(scene, width, height);
-        work.visit([&](const auto& forest) { measure(work, forest, limit); });
+        work.visit([&](const auto& forest) { measure(work, forest, limit, picture_width, picture_height); });
     }
     return 0;
 }

@@ -8,8 +8,8 @@
 
 #include <oneapi/tbb/parallel_for.h>
 
+#include "coarse_picture.hpp"
 #include "luminance.hpp"
-#include "shutter.hpp"
 
 namespace render {
 
@@ -32,21 +32,11 @@ double geometric_mean(std::span<const double> luminances) {
 }
 
 float measure_adaptation(const MovingView& view, const EyePathTracer& surfaces, const Shader& shader) {
-    const int columns = std::min(largest_grid, view.width());
-    const int rows = std::min(largest_grid, view.height());
-    std::vector<std::vector<double>> by_row(static_cast<std::size_t>(rows));
-    tbb::parallel_for(0, rows, [&](int row) {
+    const CoarseGrid grid{std::min(largest_grid, view.width()), std::min(largest_grid, view.height())};
+    std::vector<std::vector<double>> by_row(static_cast<std::size_t>(grid.rows));
+    tbb::parallel_for(0, grid.rows, [&](int row) {
         std::vector<SurfacePoint> points;
-        for (int column = 0; column < columns; ++column) {
-            const float x = (static_cast<float>(column) + 0.5f) / static_cast<float>(columns);
-            const float y = (static_cast<float>(row) + 0.5f) / static_cast<float>(rows);
-            const auto pixel = static_cast<std::uint32_t>(row * columns + column);
-            const std::uint32_t instant = instant_of_ray(0, pixel, 0, 1, view.instants());
-            EyeRay ray = view.at(instant).ray(x * static_cast<float>(view.width()),
-                                              y * static_cast<float>(view.height()));
-            ray.instant = instant;
-            surfaces.follow(ray, pixel, 0, points);
-        }
+        see_coarse_row(view, surfaces, grid, row, points);
         std::vector<Shading> shadings(points.size());
         const auto scratch = shader.make_scratch();
         shader.shade(points, shadings, *scratch);

@@ -52,6 +52,7 @@ void add_options(Fingerprint& print, const Options& o) {
     add("--max-cut", o.max_cut);
     add("--representatives", o.representatives);
     add("--adaptation", o.adaptation ? text_of(*o.adaptation) : "auto");
+    add("--learn-visibility", std::string(o.learn_visibility ? "yes" : "no"));
     add("--samples", o.samples);
     add("--ward-threshold", o.ward_threshold);
     add("--candidates", o.candidates);

@@ -5,11 +5,13 @@
 #include <cstdint>
 #include <memory>
 #include <numeric>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include <oneapi/tbb/parallel_for.h>
+#include <lightcuts/cut/learned_visibility.hpp>
 #include <lightcuts/cut/lightcut.hpp>
 #include <lightcuts/cut/shade_in_groups.hpp>
 
@@ -18,6 +20,7 @@
 #include "rays/oracle.hpp"
 #include "rays/scene_proofs.hpp"
 #include "surfaces/surface_receiver.hpp"
+#include "tbb_executor.hpp"
 
 namespace render {
 
@@ -45,7 +48,18 @@ public:
 
     void adapt(float radiance) override { cut_.adaptation = radiance; }
 
-    bool wants_pilot() const override { return proofs_ && !proofs_->mesh().empty() && !use_.used; }
+    LearningCost learn(std::span<const SurfacePoint> pilots) override {
+        std::vector<SurfaceReceiver> receivers;
+        receivers.reserve(pilots.size());
+        for (const SurfacePoint& p : pilots) receivers.push_back(receiver_of(scene_, p));
+        with_oracle(scene_, rays_, [&](const auto& oracle) {
+            const lightcuts::LearningOptions options{.cut = cut_};
+            learned_.emplace(forest_, std::span<const SurfaceReceiver>(receivers), oracle, options, TbbExecutor{});
+        });
+        return {learned_->pilot_count(), learned_->rays()};
+    }
+
+    bool wants_pilot() const override { return proofs_ && !learned_ && !proofs_->mesh().empty() && !use_.used; }
 
     void try_out(std::span<const std::vector<SurfacePoint>> blocks) override {
         // Cuts that end at their limit cost less for being wrong: proofs are compared with cuts that seldom do.
@@ -71,6 +85,8 @@ public:
                 const auto some = points.subspan(begin, std::min(most, points.size() - begin));
                 if (use_.used) {
                     shade_with_proofs(some, oracle, own);
+                } else if (learned_) {
+                    shade_alone(some, lightcuts::LearnedOracle(oracle, *learned_), own, cut_);
                 } else {
                     shade_alone(some, oracle, own, cut_);
                 }
@@ -144,6 +160,7 @@ private:
         shading.cut_size = cut.cut_size;
         shading.shadow_rays = cut.queries;
         shading.hidden = cut.hidden;
+        shading.expected_error = cut.expected_error;
         shading.at_limit = cut.stop == lightcuts::StopReason::limit;
         return shading;
     }
@@ -155,6 +172,7 @@ private:
     std::unique_ptr<const SceneProofs> proofs_;
     ProofUse use_;
     lightcuts::LightcutOptions cut_;
+    std::optional<lightcuts::LearnedVisibility> learned_;
 };
 
 }  // namespace

@@ -19,6 +19,7 @@
 #include "io/resume_file.hpp"
 #include "io/standard_streams.hpp"
 #include "io/validate.hpp"
+#include "learn_visibility.hpp"
 #include "lights/indirect.hpp"
 #include "moving_view.hpp"
 #include "options.hpp"
@@ -144,6 +145,7 @@ ExitStatus render_scene(Options options) {
         const EyePathTracer surfaces(scene, rays, shade);
         report.adaptation = options.adaptation ? *options.adaptation : measure_adaptation(view, surfaces, *shader);
         shader->adapt(report.adaptation);
+        if (options.learn_visibility) report.learning = learn_visibility(view, surfaces, *shader);
         if (shader->wants_pilot()) shader->try_out(pilot_blocks(view, surfaces));
         report.proofs = shader->proof_use();
         const Fingerprint fingerprint = fingerprint_of(options, scene, camera, rays, program_build());

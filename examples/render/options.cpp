@@ -87,6 +87,15 @@ void check_together(const Options& options) {
     if (options.visibility_bounds == "on" && options.method != "lightcuts") {
         throw usage_error("--visibility-bounds on goes with --method lightcuts, not " + options.method);
     }
+    if (options.learn_visibility && options.method != "lightcuts") {
+        throw usage_error("--learn-visibility goes with --method lightcuts, not " + options.method);
+    }
+    if (options.learn_visibility && options.visibility_bounds == "on") {
+        throw usage_error("--learn-visibility goes without --visibility-bounds on: what is proved need not be learned");
+    }
+    if (options.has_aov("expected_error") && !options.learn_visibility) {
+        throw usage_error("--aov expected_error needs --learn-visibility: nothing else is expected than error_bound");
+    }
     if (options.focus && options.aperture == 0.0f) throw usage_error("--focus needs --aperture: a pinhole is sharp");
 }
 
@@ -109,8 +118,9 @@ const std::vector<std::string>& clamping_methods() {
 }
 
 const std::vector<std::string>& aov_names() {
-    static const std::vector<std::string> names = {"cut_size", "shadow_rays", "hidden_share", "gather_points",
-                                                   "instants", "error_bound", "depth",        "normal"};
+    static const std::vector<std::string> names = {"cut_size",       "shadow_rays", "hidden_share",
+                                                   "gather_points",  "instants",    "error_bound",
+                                                   "expected_error", "depth",       "normal"};
     return names;
 }
 
@@ -189,6 +199,8 @@ Options parse_options(int argc, const char* const* argv) {
                  options.adaptation = number_in("--adaptation", s, 0.0f, huge, "a number of at least 0, or auto");
              }
          });
+    app.add_flag("--learn-visibility", options.learn_visibility,
+                 "with --method lightcuts: refine less what is hidden from points of a coarse picture");
     count("--samples", "light samples of the sampling methods (64)", 1, many, options.samples);
     count("--candidates", "lights drawn for each sample that the resampling methods keep (32)", 1, most_candidates,
           options.candidates);

@@ -47,6 +47,7 @@ struct Options {
     std::uint32_t max_cut = 1000;            ///< 0: unlimited
     std::uint32_t representatives = 1;       ///< per node of a tree, 1 to 32
     std::optional<float> adaptation = 0.0f;  ///< radiance the eye is adapted to; empty: measured (`auto`)
+    bool learn_visibility = false;           ///< cuts refine what some points of the picture see more of
     std::uint32_t samples = 64;              ///< of the sampling methods
     std::uint32_t candidates = 32;           ///< for each sample, of the methods that resample
     float ward_threshold = 0.1f;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <string>
 
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/enumerable_thread_specific.h>
@@ -28,6 +29,7 @@ constexpr std::size_t largest_batch = 2048;
 struct PixelSum {
     glm::dvec3 radiance{0.0};
     glm::dvec3 error_bound{0.0};
+    glm::dvec3 expected_error{0.0};
     glm::dvec3 normal{0.0};
     double depth = 0;
     int hits = 0;
@@ -151,6 +153,7 @@ private:
                 if (weight == 0.0) continue;
                 sum.radiance[c] += weight * static_cast<double>(shading.radiance[c]);
                 sum.error_bound[c] += weight * static_cast<double>(shading.error_bound[c]);
+                sum.expected_error[c] += weight * static_cast<double>(shading.expected_error[c]);
             }
             sum.cut_size += static_cast<double>(shading.cut_size);
             sum.shadow_rays += static_cast<double>(shading.shadow_rays);
@@ -191,6 +194,10 @@ private:
         if (Picture::Channel* channel = picture_.find(name)) channel->values[pixel] = static_cast<float>(value);
     }
 
+    void set_color(const std::string& name, std::size_t pixel, const glm::dvec3& value) const {
+        for (int c = 0; c < 3; ++c) set((name + "." + "RGB"[c]).c_str(), pixel, value[c]);
+    }
+
     void store(const Tile& tile, const std::vector<PixelSum>& sums, RenderStatistics& statistics) const {
         const double rays = options_.spp;
         std::size_t next = 0;
@@ -210,9 +217,8 @@ private:
                 set("hidden_share", pixel, sum.cut_size > 0.0 ? sum.hidden / sum.cut_size : 0.0);
                 set("gather_points", pixel, sum.gather_points);
                 set("instants", pixel, sum.shadings > 0 ? sum.instants / sum.shadings : 0.0);
-                set("error_bound.R", pixel, bound.x);
-                set("error_bound.G", pixel, bound.y);
-                set("error_bound.B", pixel, bound.z);
+                set_color("error_bound", pixel, bound);
+                set_color("expected_error", pixel, sum.expected_error / rays);
                 set("depth", pixel, sum.hits > 0 ? sum.depth / sum.hits : std::numeric_limits<double>::infinity());
                 set("normal.X", pixel, sum.normal.x / rays);
                 set("normal.Y", pixel, sum.normal.y / rays);
@@ -231,7 +237,8 @@ private:
 
 void add_channels(Picture& picture, const Options& options) {
     for (const std::string& name : options.aovs) {
-        const char* parts = name == "error_bound" ? "RGB" : name == "normal" ? "XYZ" : "";
+        const bool is_color = name == "error_bound" || name == "expected_error";
+        const char* parts = is_color ? "RGB" : name == "normal" ? "XYZ" : "";
         if (*parts == '\0') picture.add_channel(name);
         for (; *parts != '\0'; ++parts) picture.add_channel(name + "." + *parts);
     }

@@ -48,8 +48,9 @@ struct Rendering {
 /// Channels as `options.aovs` asks: `cut_size`, `shadow_rays` (sums along an eye ray, mean over the pixel's rays),
 /// `hidden_share` (of the clusters on the pixel's cuts, those that were proved to be hidden),
 /// `gather_points` (of the pixel), `instants` (mean number of instants of the clusters of gather points on the cut),
-/// `error_bound.R` `.G` `.B` (likewise, weighted along mirror paths), `depth` (mean over the rays that hit a surface,
-/// infinite if none does), `normal.X` `.Y` `.Z` (mean of the first hits' shading normals).
+/// `error_bound.R` `.G` `.B` and `expected_error.R` `.G` `.B` (likewise, weighted along mirror paths), `depth` (mean
+/// over the rays that hit a surface, infinite if none does), `normal.X` `.Y` `.Z` (mean of the first hits' shading
+/// normals).
 Rendering render_picture(const MovingView& view, const EyePathTracer& surfaces, const Shader& shader,
                          const Options& options, ResumeFile* resume_file = nullptr);
 

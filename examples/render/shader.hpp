@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -31,6 +32,13 @@ struct Shading {
     double pairs = 0;                 ///< of gather points and lights, of methods that sum up pairs
     /// Mean number of instants of the clusters of gather points on the cut, where `options.aovs` asks for it.
     float instants = 1.0f;
+    glm::vec3 expected_error{0.0f};  ///< where the error is expected to be below, of methods that have learned
+};
+
+/// What it took to learn what is visible.
+struct LearningCost {
+    std::size_t pilots = 0;
+    std::uint64_t shadow_rays = 0;
 };
 
 /// How a method uses proofs that clusters are hidden.
@@ -67,6 +75,13 @@ public:
         static_cast<void>(points);
         static_cast<void>(share);
         static_cast<void>(scratch);
+        return {};
+    }
+
+    /// Learns from some points of the picture what is visible to others near them; methods that do not do nothing. By
+    /// the threads of the calling task arena. pre: `adapt` was called, and nothing is being shaded.
+    virtual LearningCost learn(std::span<const SurfacePoint> pilots) {
+        static_cast<void>(pilots);
         return {};
     }
 

@@ -51,6 +51,7 @@ Json options_json(const RunReport& report) {
     json["max_cut"] = o.max_cut;
     json["representatives"] = o.representatives;
     json["adaptation"] = as_written(report.adaptation);
+    json["learn_visibility"] = o.learn_visibility;
     json["samples"] = o.samples;
     json["ward_threshold"] = as_written(o.ward_threshold);
     json["candidates"] = o.candidates;
@@ -125,6 +126,15 @@ Json proofs_json(const RunReport& report) {
             {"hidden_share", per(static_cast<double>(s.hidden), s.cut_nodes)}};
 }
 
+/// What was learned from, as a share of all shadow rays; null if nothing was.
+Json learning_json(const RunReport& report, std::uint64_t shadow_rays) {
+    if (!report.options.learn_visibility) return nullptr;
+    const auto own = static_cast<double>(report.learning.shadow_rays);
+    return {{"pilots", report.learning.pilots},
+            {"shadow_rays", report.learning.shadow_rays},
+            {"share", per(own, shadow_rays)}};
+}
+
 }  // namespace
 
 Json to_json(const ErrorFigures& figures) {
@@ -172,8 +182,10 @@ Json to_json(const RunReport& report) {
                        {"particles", report.seconds.particles},
                        {"tree", report.seconds.tree},
                        {"render", report.seconds.render}};
-    json["shadow_rays"] = s.shadow_rays;
-    json["shadow_rays_per_pixel"] = per(static_cast<double>(s.shadow_rays), s.pixels);
+    const std::uint64_t shadow_rays = s.shadow_rays + report.learning.shadow_rays;
+    json["shadow_rays"] = shadow_rays;
+    json["shadow_rays_per_pixel"] = per(static_cast<double>(shadow_rays), s.pixels);
+    json["learned_visibility"] = learning_json(report, shadow_rays);
     json["gather_points_per_pixel"] = per(static_cast<double>(s.gather_points), s.pixels);
     json["pairs_per_pixel"] = s.pairs > 0.0 ? Json(per(s.pairs, s.pixels)) : Json(nullptr);
     json["cut_size"] = {
@@ -208,8 +220,8 @@ std::string summary(const RunReport& report) {
          << " lights\n";
     text << report.options.method << ": " << report.seconds.load << " s loading, " << report.seconds.tree
          << " s trees, " << report.seconds.render << " s rendering, "
-         << per(static_cast<double>(s.shadow_rays), s.pixels) << " shadow rays a pixel, cut size "
-         << per(static_cast<double>(s.cut_nodes), s.cuts) << "\n";
+         << per(static_cast<double>(s.shadow_rays + report.learning.shadow_rays), s.pixels)
+         << " shadow rays a pixel, cut size " << per(static_cast<double>(s.cut_nodes), s.cuts) << "\n";
     if (report.resumed_tiles > 0) text << report.resumed_tiles << " tiles of these were there from an earlier run\n";
     if (report.error) {
         text << "relative RMSE " << 100.0 * report.error->relative_rmse << " %, 99.9th percentile "

@@ -36,6 +36,7 @@ struct RunReport {
     int threads = 1;
     PhaseTimes seconds;
     RenderStatistics statistics;
+    LearningCost learning;
     float adaptation = 0;
     ProofUse proofs;
     bool interrupted = false;

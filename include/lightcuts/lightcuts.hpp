@@ -6,6 +6,7 @@
 #error "lightcuts needs C++20: compile with -std=c++20 or later (MSVC: /std:c++20)"
 #else
 
+#include "cut/learned_visibility.hpp"
 #include "cut/lightcut.hpp"
 #include "estimate/adaptive_splitting.hpp"
 #include "estimate/exhaustive.hpp"

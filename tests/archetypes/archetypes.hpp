@@ -178,6 +178,25 @@ struct LeastTintingOracle : private Pinned {
     }
 };
 
+/// What an oracle says of clusters: it is neither copied nor moved.
+struct LeastLikelihood : private Pinned {
+    LeastLikelihood() : Pinned(0) {}
+    float operator()(std::uint32_t, std::uint32_t node) const { return node % 2 == 0 ? 0.5f : 1.0f; }
+};
+/// Predicts, and answers about one light or about many.
+struct LeastPredictingOracle : LeastOracle {
+    template <class R>
+    LeastLikelihood likely_visible(const R&) const {
+        return {};
+    }
+};
+struct LeastBatchedPredictingOracle : LeastBatchedOracle {
+    template <class R>
+    LeastLikelihood likely_visible(const R&) const {
+        return {};
+    }
+};
+
 /// Answer that a light is visible if rays to it start on its side of the plane z = 0.
 struct LeastBlade : private Pinned {
     LeastBlade() : Pinned(0) {}

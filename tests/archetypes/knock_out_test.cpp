@@ -173,6 +173,24 @@ struct OtherSpectrum {
     glm::vec3 operator()(const R&, const LeastLight&) const { return {}; }
     void many(std::span<const VisibilityQuery>, std::span<glm::vec3>) const {}
 };
+struct LikelihoodOfWords {
+    std::string operator()(std::uint32_t, std::uint32_t) const { return {}; }
+};
+struct MutableLikelihood {
+    float operator()(std::uint32_t, std::uint32_t) { return 1.0f; }
+};
+template <class Likelihood>
+struct Predicts : LeastOracle {
+    Likelihood likely_visible(const R&) const { return {}; }
+};
+struct PredictsWhenMutable : LeastOracle {
+    LeastLikelihood likely_visible(const R&) { return {}; }
+};
+static_assert(PredictingOracle<LeastPredictingOracle, R> && PredictingOracle<LeastBatchedPredictingOracle, R> &&
+              PredictingOracle<Predicts<LeastLikelihood>, R>);
+static_assert(!PredictingOracle<Predicts<LikelihoodOfWords>, R> && !PredictingOracle<Predicts<MutableLikelihood>, R> &&
+              !PredictingOracle<Predicts<float>, R> && !PredictingOracle<PredictsWhenMutable, R> &&
+              !PredictingOracle<LeastOracle, R>);
 static_assert(ScalarOracle<LeastTint, R, LeastLight> && VisibilityOracle<LeastTint, R, LeastLight>);
 static_assert(TintingOracle<LeastTintingOracle, Bands> && VisibilityOracle<LeastTintingOracle, R, LeastLight>);
 static_assert(!TintingOracle<LeastTint, Bands> && !BatchedOracle<LeastTintingOracle>);

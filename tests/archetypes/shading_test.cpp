@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <lightcuts/cut/learned_visibility.hpp>
 #include <lightcuts/estimate/adaptive_splitting.hpp>
 #include <lightcuts/estimate/exhaustive.hpp>
 #include <lightcuts/estimate/power.hpp>
@@ -91,6 +92,7 @@ void expect_shading(const Forest& forest, float visible) {
 template <class Forest>
 void expect_shading(const Forest& forest) {
     expect_shading<Forest, LeastMaterial, LeastOracle, LeastBatchedOracle>(forest, 1.0f);
+    expect_shading<Forest, LeastMaterial, LeastPredictingOracle, LeastBatchedPredictingOracle>(forest, 1.0f);
     expect_shading<Forest, LeastMaterial, LeastTint, LeastTintingOracle>(forest, 0.5f);
     expect_shading<Forest, LeastLeaf, LeastBlade, LeastBatchedBlade>(forest, 1.0f);
 }
@@ -120,6 +122,29 @@ TEST(Archetype, OfEachKindMayBeRefinedTogether) {
     const LightTree suns{std::span(scene.suns)};
     bulbs.refit();
     expect_shading(LightForest(bulbs, lamps, suns));
+}
+
+template <class Forest, class Oracle>
+void expect_learning(const Forest& forest) {
+    const LeastMaterial material;
+    const std::array<Receiver<const LeastMaterial&>, 2> pilots{
+        Receiver<const LeastMaterial&>(glm::vec3(0.0f), material),
+        Receiver<const LeastMaterial&>(glm::vec3(0.1f), material)};
+    const Oracle oracle;
+    const LearnedVisibility learned(forest, std::span<const Receiver<const LeastMaterial&>>(pilots), oracle);
+    EXPECT_GT(learned.rays(), 0u);
+    EXPECT_EQ(learned.likely_visible(pilots[0])(0, forest.template tree<0>().topology().root()), 1.0f);
+}
+
+TEST(Archetype, OfAnOracleIsLearnedFrom) {
+    const Scene scene;
+    const LightTree bulbs{std::span(scene.bulbs)};
+    const LightTree lamps{std::span(scene.lamps)};
+    const LightForest forest(bulbs, lamps);
+    expect_learning<decltype(forest), LeastOracle>(forest);
+    expect_learning<decltype(forest), LeastBatchedOracle>(forest);
+    expect_learning<decltype(forest), LeastTintingOracle>(forest);
+    expect_learning<decltype(forest), LeastPredictingOracle>(forest);
 }
 
 TEST(Archetype, OfABuilderAndAnExecutorMakeATree) {

@@ -57,6 +57,9 @@ TEST_F(Resume, GivesThePictureOfAnUninterruptedRun) {
         "room.obj --size 160x120 --spp 3 --area-points 500 --indirect 1000 --aov "
         "cut_size,shadow_rays,error_bound,depth,normal --quiet" +
             view,
+        "room.obj --learn-visibility --size 160x120 --spp 3 --area-points 500 --indirect 1000 --aov "
+        "error_bound,expected_error --quiet" +
+            view,
         "room.obj --method tree-sampling --adaptation auto --size 161x123 --spp 4 --samples 32 --seed 7 --quiet" +
             view};
     for (const std::string& run : runs) {

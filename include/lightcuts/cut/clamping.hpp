@@ -95,16 +95,18 @@ public:
     }
 
     /// What a cut comes to as it is, under its own threshold. `visit(f)` calls f(node) for all of it. `total`: the
-    /// running one; `converged`: the refinement has, and its nodes are as it left them. `add_certain(node, count)`
-    /// adds to a LightCount what is known for certain of the node's lights that arrive.
-    template <class Visit, class AddCertain>
-    ClampedSums<S> sums(const Visit& visit, const Sums& total, bool converged, const AddCertain& add_certain) const {
+    /// running one; `converged`: the refinement has, and its nodes are as it left them. `bound_of(node)`
+    /// bounds the error of each. `add_certain(node, count)` adds to a LightCount what is known for certain of the
+    /// node's lights that arrive.
+    template <class Visit, class BoundOf, class AddCertain>
+    ClampedSums<S> sums(const Visit& visit, const Sums& total, bool converged, const BoundOf& bound_of,
+                        const AddCertain& add_certain) const {
         ClampedSums<S> result;
         result.clamped = final_total(visit, total, converged);
         if (options_.is_automatic()) {
             result.bound = clamped_error<S>(
-                options_, result.clamped, arriving_lights(visit, add_certain), N::lights_rounding,
-                [&](auto&& f) { visit([&](const Node& n) { f(n.estimate, n.bound, n.lights); }); });
+                options_, result.clamped, arriving_lights(visit, bound_of, add_certain), N::lights_rounding,
+                [&](auto&& f) { visit([&](const Node& n) { f(n.estimate, bound_of(n), n.lights); }); });
             return result;
         }
         result.clamped.total = {};
@@ -112,7 +114,7 @@ public:
             for (std::size_t c = 0; c < result.bound.size(); ++c) {
                 const double most = lights_in(n.lights, c) * result.clamped.threshold[c];
                 const auto e = static_cast<double>(channel(n.estimate, static_cast<int>(c)));
-                const auto b = static_cast<double>(channel(n.bound, static_cast<int>(c)));
+                const auto b = static_cast<double>(channel(bound_of(n), static_cast<int>(c)));
                 result.clamped.total[c] += e > most ? most : e;
                 result.bound[c] += b > most ? most : b;
             }
@@ -164,15 +166,16 @@ private:
     }
 
     /// How many clamped lights arrive: those that were looked at for certain, and others where there are bounds.
-    template <class Visit, class AddCertain>
-    ArrivingLights<S> arriving_lights(const Visit& visit, const AddCertain& add_certain) const {
+    template <class Visit, class BoundOf, class AddCertain>
+    ArrivingLights<S> arriving_lights(const Visit& visit, const BoundOf& bound_of,
+                                      const AddCertain& add_certain) const {
         const LightCount<S> none(options_, counts_);
         ArrivingLights<S> arriving{none, none};
         bool known = false, most_known = false;
         visit([&](const Node& n) {
             if (known || !are_clamped(n.lights)) return;
             if (!most_known) {
-                arriving.most.add(is_black(n.bound) ? n.estimate : n.bound, n.lights);
+                arriving.most.add(is_black(n.bound) ? n.estimate : bound_of(n), n.lights);
                 most_known = arriving.most.is_known();
             }
             add_certain(n, arriving.least);

@@ -26,6 +26,9 @@ struct CutResult {
     /// where transfer or visibility are smaller than that, as beyond distances of 1e18, and radiance above the largest
     /// float, of one light or of all, is the largest float.
     S error_bound = black<S>();
+    /// The same with each cluster's bound times the likelihood that a PredictingOracle states: where the error is
+    /// expected to be below, which nothing proves. `error_bound` if the oracle predicts nothing.
+    S expected_error = black<S>();
     /// Radiance that no clamped light exceeded; infinite if there was no limit, as in automatic clamping of two or
     /// fewer.
     S clamp_threshold = make_spectrum<S>([](int) { return std::numeric_limits<float>::infinity(); });
@@ -74,18 +77,21 @@ CutResult<S> result_of(const ChannelSums<S>& radiance, const ChannelSums<S>& bou
     return result;
 }
 
-/// The estimate and its error bound from a cut as it is.
-template <Spectrum S, bool Clamps>
-CutResult<S> cut_result(const Refinement<CutNode<S, Clamps>>& refinement, const RunningTotal<S, Clamps>& total,
-                        const CutCounts& counts) {
+/// The estimate from a cut as it is, and its error bound if `bound_of(node)` bounds that of each cluster. Never
+/// inlined: its loop is faster alone.
+template <Spectrum S, bool Clamps, class BoundOf>
+[[gnu::noinline]] CutResult<S> cut_result_by(const Refinement<CutNode<S, Clamps>>& refinement,
+                                             const RunningTotal<S, Clamps>& total, const CutCounts& counts,
+                                             const BoundOf& bound_of) {
     ChannelSums<S> radiance{}, bound{}, threshold{};
     if constexpr (Clamps) {
         using Node = CutNode<S, true>;
-        const auto sums = total.clamping().sums(
-            [&](auto&& f) { refinement.for_each(f); }, total.total(), refinement.stop_reason() == StopReason::converged,
-            [](const Node& n, LightCount<S>& least) {
-                least.add(n.estimate, 1.0, n.lights == 1.0f ? 1.0 : representative_part(n));
-            });
+        const auto sums = total.clamping().sums([&](auto&& f) { refinement.for_each(f); }, total.total(),
+                                                refinement.stop_reason() == StopReason::converged, bound_of,
+                                                [](const Node& n, LightCount<S>& least) {
+                                                    least.add(n.estimate, 1.0,
+                                                              n.lights == 1.0f ? 1.0 : representative_part(n));
+                                                });
         radiance = sums.clamped.total;
         threshold = sums.clamped.threshold;
         bound = sums.bound;
@@ -93,7 +99,7 @@ CutResult<S> cut_result(const Refinement<CutNode<S, Clamps>>& refinement, const 
         refinement.for_each([&](const CutNode<S>& n) {
             for (std::size_t c = 0; c < radiance.size(); ++c) {
                 radiance[c] += static_cast<double>(channel(n.estimate, static_cast<int>(c)));
-                bound[c] += static_cast<double>(channel(n.bound, static_cast<int>(c)));
+                bound[c] += static_cast<double>(channel(bound_of(n), static_cast<int>(c)));
             }
         });
     }
@@ -105,6 +111,23 @@ CutResult<S> cut_result(const Refinement<CutNode<S, Clamps>>& refinement, const 
     result.queries = counts.queries;
     result.hidden = counts.hidden;
     result.stop = refinement.stop_reason();
+    return result;
+}
+
+/// The estimate from a cut as it is, with its error bound and what `likely`, a Prediction, makes of that.
+template <Spectrum S, bool Clamps, class Likely>
+CutResult<S> cut_result(const Refinement<CutNode<S, Clamps>>& refinement, const RunningTotal<S, Clamps>& total,
+                        const CutCounts& counts, const Likely& likely) {
+    using Node = CutNode<S, Clamps>;
+    CutResult<S> result = cut_result_by(refinement, total, counts, [](const Node& n) -> const S& { return n.bound; });
+    result.expected_error = result.error_bound;
+    if constexpr (Likely::predicts) {
+        const auto expected = [&](const Node& n) {
+            const auto factor = static_cast<float>(likely(n));
+            return make_spectrum<S>([&](int c) { return channel(n.bound, c) * factor; });
+        };
+        result.expected_error = cut_result_by(refinement, total, counts, expected).error_bound;
+    }
     return result;
 }
 
@@ -149,7 +172,9 @@ public:
     }
 
     /// The estimate from the cut as it is.
-    CutResult<S> result() const { return detail::cut_result(refinement_, total_, counts_); }
+    CutResult<S> result() const {
+        return detail::cut_result(refinement_, total_, counts_, detail::Prediction<Oracle, R>(oracle_, receiver_));
+    }
 
     /// Calls `f(node)` for each CutNode of the cut, in no particular order.
     template <class F>
@@ -209,7 +234,7 @@ template <class Forest, class M, class Oracle, class Policy>
         LightcutProblem<Forest, Receiver<M>, Oracle, Policy> problem(forest, receivers[i], oracle, policy, options,
                                                                      slot.total, slot.counts, scratch.queries);
         slot.refinement.run(problem, refinement);
-        results[i] = cut_result(slot.refinement, slot.total, slot.counts);
+        results[i] = cut_result(slot.refinement, slot.total, slot.counts, problem.prediction());
     }
 }
 
@@ -251,7 +276,7 @@ template <class Forest, class M, class Oracle, class Policy>
                 problem.request(slot.refinement.fresh());
                 any = true;
             } else {
-                results[i] = cut_result(slot.refinement, slot.total, slot.counts);
+                results[i] = cut_result(slot.refinement, slot.total, slot.counts, problem.prediction());
             }
         }
     }

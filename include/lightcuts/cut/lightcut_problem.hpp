@@ -9,6 +9,7 @@
 #include "cut_node.hpp"
 #include "forest.hpp"
 #include "options.hpp"
+#include "prediction.hpp"
 #include "refinement.hpp"
 #include "representative_batch.hpp"
 #include "running_total.hpp"
@@ -50,7 +51,20 @@ public:
                     ReusableList<VisibilityQuery>& query_list)
         : Criterion(total, options), forest_(forest), options_(options), counts_(counts), receiver_id_(receiver.id),
           representatives_(forest, receiver, oracle, options.clamp, query_list),
-          bounder_(forest, receiver, oracle, policy, counts.hidden) {}
+          bounder_(forest, receiver, oracle, policy, counts.hidden), likely_(oracle, receiver) {}
+
+    /// What a cluster is expected to be off by, as a share of the total: its bound where the oracle predicts nothing.
+    double priority(const Node& n) const {
+        if constexpr (PredictingOracle<Oracle, R>) {
+            const double likely = likely_(n);
+            return likely * total_.priority(n, threshold_ / likely);
+        } else {
+            return Criterion::priority(n);
+        }
+    }
+
+    /// How likely clusters are to be visible, as the oracle predicts it.
+    const detail::Prediction<Oracle, R>& prediction() const { return likely_; }
 
     void roots(ReusableList<Node>& out) {
         total_.start(options_.clamp, [this] { return detail::counts_per_radiance(forest_); });
@@ -222,6 +236,7 @@ private:
     std::uint32_t receiver_id_;
     detail::RepresentativeBatch<Forest, R, Oracle> representatives_;
     detail::ClusterBounder<Forest, R, Oracle, Policy> bounder_;
+    [[no_unique_address]] detail::Prediction<Oracle, R> likely_;
 };
 
 }  // namespace lightcuts

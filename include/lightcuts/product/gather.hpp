@@ -188,7 +188,7 @@ GatherResult<typename Lights::spectrum> gather_pairs(const Lights& lights, const
     if constexpr (clamps) {
         const bool found = !options.redraw && scratch.refinement.stop_reason() == StopReason::converged;
         const auto sums = scratch.total.clamping().sums(
-            visit, scratch.total.total(), found,
+            visit, scratch.total.total(), found, [](const Node& n) -> const S& { return n.bound; },
             [&](const Node& n, LightCount<S>& least) { problem.add_certain(n, least); });
         radiance = sums.clamped.total;
         threshold = sums.clamped.threshold;

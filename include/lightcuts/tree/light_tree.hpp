@@ -113,6 +113,7 @@ public:
         tree_ = std::exchange(other.tree_, {});
         clusters_ = std::exchange(other.clusters_, {});
         representatives_ = std::exchange(other.representatives_, {});
+        start_ = std::exchange(other.start_, {});
         return *this;
     }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <concepts>
+#include <cstdint>
 #include <span>
 #include <type_traits>
 #include <vector>
@@ -157,6 +158,19 @@ concept BoundedOracle = requires(const O& visible, const R& receiver, const plac
 template <class O, class R, class L>
 concept HidingOracle = requires(const O& visible, const R& receiver, const place_box<L>& box) {
     { visible.hides(receiver, box) } -> std::same_as<bool>;
+};
+
+/// An oracle that has an idea of how likely something of a cluster is to be visible, with or without proof:
+/// `likely_visible(receiver)` returns a function of (kind, node), which number a tree in the forest and a node in it,
+/// with values in (0, 1]. A cut multiplies the priorities of clusters by them and nothing else: where they are wrong it
+/// refines the wrong clusters, but its stated error bound stays true. 1 changes nothing. The function is asked for a
+/// few times while a receiver is shaded and called for each cluster, so that what depends on the receiver alone is
+/// best done before it is returned. See LearnedVisibility.
+template <class O, class R>
+concept PredictingOracle = requires(const O& visible, const R& receiver,
+                                    const std::remove_cvref_t<decltype(visible.likely_visible(receiver))>& likely,
+                                    std::uint32_t kind, std::uint32_t node) {
+    { likely(kind, node) } -> std::convertible_to<float>;
 };
 
 /// Nothing casts a shadow. Costs nothing: algorithms skip the question.
