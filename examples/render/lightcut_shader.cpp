@@ -41,7 +41,7 @@ public:
         cut_.seed = options.seed;
         cut_.clamp = options.clamping();
         if (options.visibility_bounds != "off") proofs_ = std::make_unique<const SceneProofs>(scene, rays);
-        use_.used = options.visibility_bounds == "on";
+        use_.used = options.visibility_bounds == "on" && !proofs_->mesh().empty();
     }
 
     std::unique_ptr<Scratch> make_scratch() const override { return std::make_unique<CutScratch>(); }

@@ -75,10 +75,7 @@ struct Pairs {
         }
         return count;
     }
-    double share(double ratio) const {
-        const double share = std::max(ratio, 2.0 / arriving());
-        return share < 1.0 ? share : infinity;
-    }
+    double share(double ratio) const { return std::max(ratio, 2.0 / arriving()); }
     /// The largest total that is the sum under its own threshold, by bisection: below it the sum is larger.
     double total(double ratio) const {
         const double share_of_one = share(ratio);
@@ -298,8 +295,12 @@ TEST(GatherClamping, OfManyPointsAtOnePlaceIsThatOfTheLightcut) {
         const auto many = gather(tree, parts, oracle, clamped(exact, 0.01f));
         for (int c = 0; c < 3; ++c) {
             EXPECT_NEAR(many.radiance[c], one.radiance[c] * sum[c], 1e-4f * one.radiance[c] * sum[c]);
-            EXPECT_NEAR(many.clamp_threshold[c], one.clamp_threshold[c] * sum[c],
-                        1e-4f * one.clamp_threshold[c] * sum[c]);
+            if (one.clamp_threshold[c] < std::numeric_limits<float>::infinity()) {
+                EXPECT_NEAR(many.clamp_threshold[c], one.clamp_threshold[c] * sum[c],
+                            1e-4f * one.clamp_threshold[c] * sum[c]);
+            } else {
+                EXPECT_GE(many.clamp_threshold[c], 0.9999f * many.radiance[c]) << "no limit at one place";
+            }
         }
     }
 }
@@ -408,6 +409,30 @@ TEST(GatherClamping, KeepsTheErrorWithinItsBoundWhereFewOfAClusterArrive) {
         }
     }
     EXPECT_GT(fooled, 20);
+}
+
+/// A third light that adds next to nothing changes next to nothing, however unlike the points are.
+TEST(GatherClamping, IsContinuousInALightThatIsAdded) {
+    std::vector<DiffusePoint> points;
+    for (std::uint32_t i = 0; i < 4; ++i) {
+        const V p(static_cast<float>(i), 0.0f, 0.0f);
+        points.push_back({{p, Lambert<V>{{0, 0, 1}, V(1.0f)}, p, i}, V(0.25f)});
+    }
+    const auto light = [](const V& at, float intensity) { return Virtual{{at, {0, 0, -1}, V(intensity), {}}}; };
+    const auto total_with = [&](std::size_t lights, float third) {
+        // A spike at the first point, a light for all of them, and one more.
+        std::vector<Virtual> all = {light({0, 0, 0.05f}, 1), light({1.5f, 0, 1}, 1), light({1.5f, 0.1f, 1}, third)};
+        all.resize(lights);
+        const LightTree tree(all);
+        return gather(tree, points, AlwaysVisible{}, clamped(exact, 0.01f)).radiance.x;
+    };
+    for (const std::size_t others : {1u, 2u}) {
+        const float without = total_with(others, 0.0f);
+        for (const float third : {0.0f, 1e-14f, 1e-12f, 1e-11f}) {
+            EXPECT_NEAR(total_with(3, third), total_with(2, 0.0f), 0.02f * total_with(2, 0.0f)) << third;
+        }
+        EXPECT_GT(without, 0.0f);
+    }
 }
 
 TEST(GatherClamping, OfDarknessIsDarkness) {

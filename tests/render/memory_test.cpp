@@ -28,8 +28,9 @@ TEST_F(Memory, AShortageIsToldInOneLine) {
 }
 
 TEST_F(Memory, NoLimitEndsInACrash) {
-    // Threads, the ray tracer, trees and the picture run short in turn.
-    for (rlim_t megabytes = 60; megabytes <= 600; megabytes += 45) {
+    // Threads, the ray tracer, trees and the picture run short in turn. With less the program and its libraries cannot
+    // be loaded.
+    for (rlim_t megabytes = 75; megabytes <= 600; megabytes += 45) {
         const auto result = render("builtin:hall --size 64x48 --threads 8 --indirect 1000 --quiet",
                                    address_space(megabytes << 20));
         EXPECT_TRUE(result.status == 0 || result.status == 1) << megabytes << " MB: " << result.status << result.err;

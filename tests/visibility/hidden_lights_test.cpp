@@ -202,9 +202,7 @@ TEST(ShadeInGroups, IsWithinItsBoundsWhateverIsShared) {
         shade_in_groups(lights, all, visible, hidden, std::span(results), scratch, unlimited, {.largest_group = group});
         const std::uint64_t rays = scratch.steps().rays - before;
         if (group == 64) rays_of_large_groups = rays;
-        if (group == 1) {
-            EXPECT_GT(rays, 4 * rays_of_large_groups) << "shared proofs are made once";
-        }
+        if (group == 1) { EXPECT_GT(rays, 4 * rays_of_large_groups) << "shared proofs are made once"; }
         for (std::size_t i = 0; i < receivers.size(); ++i) {
             const glm::vec3 exact = exhaustive(lights, receivers[i], visible).radiance;
             for (int c = 0; c < 3; ++c) {

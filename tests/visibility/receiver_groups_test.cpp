@@ -91,6 +91,22 @@ TEST(ReceiverGroups, AreOfNeighbors) {
     EXPECT_GE(area, 40.0);
 }
 
+TEST(ReceiverGroups, OutliveWhatTheyWereCopiedFrom) {
+    Random random(4);
+    const std::vector<ReceiverBox> all = receivers(random, 300);
+    ReceiverGroups copy;
+    {
+        ReceiverGroups groups;
+        groups.divide(all, 16);
+        copy = groups;
+    }
+    std::vector<int> seen(all.size(), 0);
+    for (std::size_t g = 0; g < copy.size(); ++g) {
+        for (const std::uint32_t i : copy.members(g)) ++seen[i];
+    }
+    EXPECT_EQ(std::count(seen.begin(), seen.end(), 1), 300);
+}
+
 TEST(ReceiverGroups, MayAllLieAtOnePlace) {
     const std::vector<ReceiverBox> all(300, ReceiverBox{box_of(glm::vec3(1.0f)), std::nullopt});
     ReceiverGroups groups;

@@ -64,30 +64,38 @@ template <Spectrum S>
 struct ClampedTotal {
     ChannelSums<S> total{};
     ChannelSums<S> threshold{};  ///< the most that a clamped light adds
-    ChannelSums<S> ratio{};      ///< that share of the total; infinite if it may be all of it
+    ChannelSums<S> ratio{};      ///< that share of the total; infinite if none arrives
+
+    /// What a single receiver reports: no limit where it is the total or more.
+    S threshold_at_receiver(const ClampingOptions& clamp) const {
+        return make_spectrum<S>([&](int channel) {
+            const auto c = static_cast<std::size_t>(channel);
+            return ratio[c] < 1.0 ? threshold[c] : static_cast<double>(clamp.radiance);
+        });
+    }
 };
 
-/// The share of the total that one of `lights` may add, which are the clamped ones that arrive; infinite if that is
-/// all of it, which a share of 1 is too. At least twice the share of each if they are alike: n lights of more than 1 /
-/// n each have no total but 0. Continuous.
+/// The share of the total that one of `lights` may add, which are the clamped ones that arrive; infinite of none. At
+/// least twice the share of each if they are alike: n lights of more than 1 / n each have no total but 0. A share of 1
+/// or more limits no light at a single receiver; in a sum over several, of which each has a part of it, it may.
+/// Continuous.
 inline double effective_ratio(const ClampingOptions& clamp, double lights) {
     const auto stated = static_cast<double>(clamp.ratio);
     // A little more than 2 / n, so that it is all the same whether to a whole number of lights next to nothing is
     // added.
     constexpr double two = 2.0 * (1.0 + 0x1p-30);
-    if (!(lights > two)) return std::numeric_limits<double>::infinity();
+    if (!(lights > 0.0)) return std::numeric_limits<double>::infinity();
     // Nearly 2 / ratio lights: a little less than 2 / n, since the ratio was rounded to float, and 2 / 200 is not above
     // 0.01.
     const double least = two / lights, nearby = 0x1p-22 * stated - 0x1p-12 * (least - stated);
     const double lowered = nearby > 0.0 ? least - nearby : least;
-    const double ratio = lowered > stated ? lowered : stated;
-    return ratio < 1.0 ? ratio : std::numeric_limits<double>::infinity();
+    return lowered > stated ? lowered : stated;
 }
 
 /// The threshold under a total that may be infinite; `ratio` as it is effective.
 inline double clamp_threshold(const ClampingOptions& clamp, double ratio, double total) {
     const double limit = static_cast<double>(clamp.radiance);
-    const double share = ratio < 1.0 ? ratio * total : limit;
+    const double share = ratio < std::numeric_limits<double>::infinity() ? ratio * total : limit;
     return share < limit ? share : limit;
 }
 

@@ -59,6 +59,7 @@ public:
     /// True if shares have changed since `checkpoint`.
     bool has_other_shares() const { return share_ != base_share_; }
     const Sums& shares() const { return share_; }
+    const ClampingOptions& options() const { return options_; }
     bool is_automatic() const { return options_.is_automatic(); }
 
     /// True if the total has left the neighborhood of the one that the threshold was made of. Where few lights have

@@ -83,7 +83,8 @@ template <Spectrum S, bool Clamps, class BoundOf>
 [[gnu::noinline]] CutResult<S> cut_result_by(const Refinement<CutNode<S, Clamps>>& refinement,
                                              const RunningTotal<S, Clamps>& total, const CutCounts& counts,
                                              const BoundOf& bound_of) {
-    ChannelSums<S> radiance{}, bound{}, threshold{};
+    ChannelSums<S> radiance{}, bound{};
+    S threshold = CutResult<S>{}.clamp_threshold;
     if constexpr (Clamps) {
         using Node = CutNode<S, true>;
         const auto sums = total.clamping().sums([&](auto&& f) { refinement.for_each(f); }, total.total(),
@@ -93,7 +94,7 @@ template <Spectrum S, bool Clamps, class BoundOf>
                                                               n.lights == 1.0f ? 1.0 : representative_part(n));
                                                 });
         radiance = sums.clamped.total;
-        threshold = sums.clamped.threshold;
+        threshold = sums.clamped.threshold_at_receiver(total.clamping().options());
         bound = sums.bound;
     } else {
         refinement.for_each([&](const CutNode<S>& n) {
@@ -104,9 +105,7 @@ template <Spectrum S, bool Clamps, class BoundOf>
         });
     }
     CutResult<S> result = result_of<S>(radiance, bound);
-    if constexpr (Clamps) {
-        result.clamp_threshold = make_spectrum<S>([&](int c) { return threshold[static_cast<std::size_t>(c)]; });
-    }
+    result.clamp_threshold = threshold;
     result.cut_size = static_cast<std::uint32_t>(refinement.size());
     result.queries = counts.queries;
     result.hidden = counts.hidden;

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "../core/assertion.hpp"
@@ -17,7 +18,7 @@ namespace lightcuts {
 
 /// How receivers share proofs that lights are hidden.
 struct GroupOptions {
-    /// Receivers that share proofs, at most.
+    /// Receivers that share proofs, at most; at least 1.
     std::size_t largest_group = 128;
     /// A receiver whose cut ends at its limit is shaded once more with proofs of its own, unless those of others of its
     /// group took longer than a cut of four times the limit.
@@ -40,14 +41,16 @@ struct GroupScratch {
 
 /// Shades receivers by lightcuts as `shade` does, and proves that clusters are hidden: once for all receivers of a
 /// group of neighbors, which are found among those given. Give many at once, such as those of some hundred pixels; the
-/// same ones give the same results, in whatever threads. `hidden`: a HiddenLights, which has to know of nothing that
-/// `oracle` sees through. A receiver that is shaded twice counts the shadow rays of both in `queries`.
-/// threads: safe with one scratch each. pre: results.size() >= receivers.size().
+/// same ones give the same results, in whatever threads and order. A copy of `oracle` is asked. `hidden`: a
+/// HiddenLights of triangles that `oracle` sees nothing through. A receiver that is shaded twice counts the shadow rays
+/// of both in `queries`. threads: safe with one scratch each. pre: results.size() >= receivers.size().
 template <TreeOrForest Lights, class M, class Oracle, class Hidden, class Policy = TwoStageBounds>
 void shade_in_groups(const Lights& lights, std::span<const Receiver<M>> receivers, const Oracle& oracle,
                      const Hidden& hidden, std::span<CutResult<forest_spectrum<Lights>>> results,
                      GroupScratch<Lights, Receiver<M>>& scratch, const LightcutOptions& options = {},
                      const GroupOptions& groups = {}, const Policy& policy = {}) {
+    static_assert(std::is_copy_constructible_v<Oracle> && !std::is_final_v<Oracle>,
+                  "shading in groups adds proofs to a copy of the oracle: it has to be copyable, and not final");
     LIGHTCUTS_ASSERT(results.size() >= receivers.size());
     // As many as stay in the cache side by side.
     constexpr std::size_t most_at_once = 16;

@@ -119,7 +119,7 @@ void descend(const Tree& tree, std::uint32_t kind, const Receiver<M>& receiver, 
         }
         for (auto first = bounded; first != inner.end();) {
             // Step 3: bound the children of some of the other nodes side by side.
-            const auto count = std::min(parents_at_once, static_cast<std::size_t>(inner.end() - first));
+            const auto count = (std::min)(parents_at_once, static_cast<std::size_t>(inner.end() - first));
             for (std::size_t i = 0; i < count; ++i) nodes[i] = first[static_cast<std::ptrdiff_t>(i)].node;
             find_child_importances(policy, receiver, tree, std::span<const std::uint32_t>(nodes).first(count),
                                    children.data());

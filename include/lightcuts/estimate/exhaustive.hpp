@@ -16,7 +16,7 @@ void add_clamped(const ClampingOptions& clamp, const ChannelSums<S>& counts, con
     const auto solved = clamped_total<S>(clamp, effective_ratios<S>(clamp, counts, visit), unclamped.sum, unclamped.sum,
                                          1e-7, visit);
     result.radiance = RadianceSum<S>{solved.total}.value();
-    result.clamp_threshold = make_spectrum<S>([&](int c) { return solved.threshold[static_cast<std::size_t>(c)]; });
+    result.clamp_threshold = solved.threshold_at_receiver(clamp);
 }
 
 }  // namespace detail

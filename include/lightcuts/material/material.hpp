@@ -1,8 +1,8 @@
 #pragma once
 
 #include <concepts>
-#include <optional>
 #include <cstddef>
+#include <optional>
 #include <type_traits>
 #include <utility>
 
@@ -66,7 +66,8 @@ concept TwoSidedMaterial = Material<M> && requires(const M& m, const glm::vec3& 
 };
 
 /// A material whose `horizon()` is a normal such that it reflects nothing from directions `d` with dot(horizon(), d) <=
-/// 0, or nothing if it has none, as what light passes through.
+/// 0, or nothing if it has none, as what light passes through. Of a TwoSidedMaterial: nothing also if `is_behind(d)` is
+/// true of a direction `d` above that horizon.
 template <class M>
 concept MaterialWithHorizon = requires(const M& material) {
     { material.horizon() } -> std::convertible_to<std::optional<glm::vec3>>;

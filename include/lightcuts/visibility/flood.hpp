@@ -159,7 +159,7 @@ public:
         std::uint32_t triangles = 0;  ///< met
     };
 
-    /// The walk from `start`, for the receivers and lights that `passage` was prepared for.
+    /// The walk from `start`, for the receivers and lights that `passage` was prepared for, by this very Flood.
     Walk walk(const Passage& passage, Index start) const {
         if (start >= mesh_.size() || !blocks_start_segment(passage, start)) return {};
         const Side side = side_of(passage, plane_of(start, passage.reach_), start);

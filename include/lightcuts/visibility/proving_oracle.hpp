@@ -1,6 +1,6 @@
 #pragma once
 
-#include <concepts>
+#include <type_traits>
 #include <utility>
 
 #include "../shading/receiver.hpp"
@@ -9,9 +9,10 @@
 
 namespace lightcuts {
 
-/// An oracle that also proves of whole clusters that they are hidden: a HidingOracle. `Oracle`: any other, not final.
-/// `Hidden`: a HiddenLights.
+/// An oracle that also proves of whole clusters that they are hidden: a HidingOracle. It keeps a copy of `Oracle`,
+/// which may be any other whose class is not final. `Hidden`: a HiddenLights.
 template <class Oracle, class Hidden>
+    requires(!std::is_final_v<Oracle>)
 class ProvingOracle : public Oracle {
 public:
     /// `hidden` and `group` are referred to. `group`: proves for all receivers of a group at once, if there is one.

@@ -21,7 +21,7 @@ namespace lightcuts {
 class ReceiverGroups {
 public:
     /// Divides receivers into groups of at most `most`, anew. The same for the same receivers in the same order.
-    /// pre: most >= 1; at most 2^32 - 1 receivers, of which no box is empty. cost: O(N log N)
+    /// pre: most >= 1; at most 2^32 - 1 receivers; no box is empty, and normals are numbers. cost: O(N log N)
     void divide(std::span<const ReceiverBox> receivers, std::size_t most) {
         LIGHTCUTS_ASSERT(most >= 1);
         order_.resize(receivers.size());
@@ -37,19 +37,22 @@ public:
         for (std::size_t first = 0, last = 0; first < order_.size(); first = last) {
             while (last < order_.size() && has_same_horizon(receivers[order_[first]], receivers[order_[last]])) ++last;
             if (last - first >= fewest_alike) {
-                halve(receivers, std::span(order_).subspan(first, last - first), most);
+                halve(receivers, order_, first, last - first, most);
             } else {
                 mixed_.insert(mixed_.end(), order_.begin() + static_cast<std::ptrdiff_t>(first),
                               order_.begin() + static_cast<std::ptrdiff_t>(last));
             }
         }
-        if (!mixed_.empty()) halve(receivers, std::span(mixed_), most);
+        if (!mixed_.empty()) halve(receivers, mixed_, 0, mixed_.size(), most);
     }
 
     std::size_t size() const { return groups_.size(); }
 
     /// The numbers of the group's receivers.
-    std::span<const std::uint32_t> members(std::size_t group) const { return groups_[group].members; }
+    std::span<const std::uint32_t> members(std::size_t group) const {
+        const Group& g = groups_[group];
+        return std::span(g.is_mixed ? mixed_ : order_).subspan(g.first, g.count);
+    }
 
     /// All of them: where their shadow rays start, and the horizon that is that of each, if there is one.
     const ReceiverBox& box(std::size_t group) const { return groups_[group].box; }
@@ -59,7 +62,9 @@ private:
     static constexpr std::size_t fewest_alike = 4;
 
     struct Group {
-        std::span<const std::uint32_t> members;
+        bool is_mixed;  ///< its members are in `mixed_`, not in `order_`
+        std::size_t first;
+        std::size_t count;
         ReceiverBox box;
     };
 
@@ -83,10 +88,12 @@ private:
         return all;
     }
 
-    /// Halves by number along the longest axis until groups are small enough.
-    void halve(std::span<const ReceiverBox> receivers, std::span<std::uint32_t> members, std::size_t most) {
-        if (members.size() <= most) {
-            groups_.push_back({members, merged(receivers, members)});
+    /// Halves `count` of `all` by number along the longest axis until groups are small enough.
+    void halve(std::span<const ReceiverBox> receivers, std::vector<std::uint32_t>& all, std::size_t first,
+               std::size_t count, std::size_t most) {
+        const std::span<std::uint32_t> members = std::span(all).subspan(first, count);
+        if (count <= most) {
+            groups_.push_back({&all == &mixed_, first, count, merged(receivers, members)});
             return;
         }
         Box box;
@@ -96,16 +103,16 @@ private:
         const auto place = [&](std::uint32_t i) {
             return std::tuple(receivers[i].box.lo[axis], receivers[i].box.hi[axis], i);
         };
-        const std::size_t half = members.size() / 2;
+        const std::size_t half = count / 2;
         std::nth_element(members.begin(), members.begin() + static_cast<std::ptrdiff_t>(half), members.end(),
                          [&](std::uint32_t a, std::uint32_t b) { return place(a) < place(b); });
-        halve(receivers, members.first(half), most);
-        halve(receivers, members.subspan(half), most);
+        halve(receivers, all, first, half, most);
+        halve(receivers, all, first + half, count - half, most);
     }
 
     std::vector<std::uint32_t> order_;
     std::vector<std::uint32_t> mixed_;  ///< of receivers with horizons that few have
-    std::vector<Group> groups_;         ///< of these two
+    std::vector<Group> groups_;
 };
 
 }  // namespace lightcuts

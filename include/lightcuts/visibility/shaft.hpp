@@ -26,7 +26,7 @@ public:
 
     /// Leaves out what is lower than both all receivers and all lights, or `least`, whichever is higher of these two:
     /// for where lights that are lower along `normal` need not be hidden. Distant lights count as no lower than the
-    /// receivers. pre: `normal` is not zero
+    /// receivers. pre: `normal` is not zero; at most one such call
     void cut_below(const glm::vec3& normal, double least, const Box& receivers, const Box& lights) {
         lower_limit(normal, detail::smaller(lowest(receivers, glm::dvec3(normal)),
                                             detail::larger(lowest(lights, glm::dvec3(normal)), least)));

@@ -64,7 +64,8 @@ TEST(SceneProofs, HideNoLightOfASphereThatReachesThroughTheWall) {
     const render::SceneProofs proofs(scene, rays);
     const Receiver receiver = before_the_wall({-5.0f, 0.3f, 0.2f});
     EXPECT_FALSE(proofs.hidden().hides(receiver, lightcuts::box_of({1.1f, 0.0f, 0.0f})));
-    EXPECT_TRUE(proofs.hidden().hides(receiver, lightcuts::box_of({4.0f, 0.0f, 0.0f}))) << "no ray ends so far off its light";
+    EXPECT_TRUE(proofs.hidden().hides(receiver, lightcuts::box_of({4.0f, 0.0f, 0.0f})))
+        << "no ray ends so far off its light";
 }
 
 }  // namespace
