@@ -78,7 +78,7 @@ public:
         Verdicts verdicts;
         for (std::uint32_t n = 0; n < topology.size(); ++n) {
             if (!topology.is_leaf(n)) nodes_[n] = nodes_[topology.left(n)] || nodes_[topology.right(n)];
-            const std::uint32_t lights = topology.leaf_count(n);
+            const auto lights = static_cast<std::uint32_t>(topology.leaf_count(n));
             if (lights < many_lights && lightcuts::hash_keys(calls_, 0, kind, n) % 8 != 0) continue;
             ++verdicts.asked;
             const lightcuts::place_box<typename Tree::light_type> box{tree_.clusters()[n].box};
