@@ -61,7 +61,7 @@ public:
             constexpr bool distant = lightcuts::DirectionalLight<L>;
             const glm::dvec3 way = distant ? glm::dvec3(place) : glm::dvec3(place) - glm::dvec3(receiver.position);
             if (horizon && !(glm::dot(glm::dvec3(*horizon), way) > 0.0)) continue;
-            queries_.push_back({receiver.shadow_origin, receiver.id, place, kind, topology.item(n), distant});
+            queries_.push_back({receiver.shadow_origin, receiver.id, place, topology.item(n), kind, distant});
             leaves_.push_back(n);
         }
         answers_.resize(queries_.size());
