@@ -1,11 +1,19 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
+
+#include <glm/vec2.hpp>
 
 #include "moving_view.hpp"
 #include "surfaces/surface.hpp"
 
 namespace render {
+
+/// Appends to `points` what reflects light along one eye ray through a place of the view, in pixels. `name`: their
+/// SurfacePoint::pixel.
+void see_through(const MovingView& view, const EyePathTracer& surfaces, const glm::vec2& place, std::uint32_t name,
+                 std::vector<SurfacePoint>& points);
 
 /// Columns and rows of points that lie evenly in a picture.
 struct CoarseGrid {

@@ -19,6 +19,7 @@
 #include "lights/scene_lights.hpp"
 #include "rays/oracle.hpp"
 #include "rays/scene_proofs.hpp"
+#include "shading_of_cut.hpp"
 #include "surfaces/surface_receiver.hpp"
 #include "tbb_executor.hpp"
 
@@ -40,7 +41,8 @@ public:
         cut_.adaptation = options.adaptation.value_or(0.0f);
         cut_.seed = options.seed;
         cut_.clamp = options.clamping();
-        if (options.visibility_bounds != "off") proofs_ = std::make_unique<const SceneProofs>(scene, rays);
+        if (options.visibility_bounds == "off" || options.learn_visibility) return;
+        proofs_ = std::make_unique<const SceneProofs>(scene, rays);
         use_.used = options.visibility_bounds == "on" && !proofs_->mesh().empty();
     }
 
@@ -59,7 +61,7 @@ public:
         return {learned_->pilot_count(), learned_->rays()};
     }
 
-    bool wants_pilot() const override { return proofs_ && !learned_ && !proofs_->mesh().empty() && !use_.used; }
+    bool wants_pilot() const override { return proofs_ && !proofs_->mesh().empty() && !use_.used; }
 
     void try_out(std::span<const std::vector<SurfacePoint>> blocks) override {
         // Cuts that end at their limit cost less for being wrong: proofs are compared with cuts that seldom do.
@@ -73,6 +75,7 @@ public:
         });
         use_.used = with < without;
         if (without > 0.0) use_.pilot_ratio = with / without;
+        if (!use_.used) proofs_.reset();
     }
 
     ProofUse proof_use() const override { return use_; }
@@ -150,19 +153,6 @@ private:
             steps += static_cast<double>(cut.queries) + static_cast<double>(cut.cut_size);
         }
         return steps;
-    }
-
-    static Shading shading_of(const Cut& cut) {
-        Shading shading;
-        shading.radiance = cut.radiance;
-        shading.error_bound = cut.error_bound;
-        shading.clamp_threshold = cut.clamp_threshold;
-        shading.cut_size = cut.cut_size;
-        shading.shadow_rays = cut.queries;
-        shading.hidden = cut.hidden;
-        shading.expected_error = cut.expected_error;
-        shading.at_limit = cut.stop == lightcuts::StopReason::limit;
-        return shading;
     }
 
     const Scene& scene_;

@@ -23,6 +23,7 @@
 #include "rays/ray_scene.hpp"
 #include "scene.hpp"
 #include "shader.hpp"
+#include "shading_of_cut.hpp"
 #include "surfaces/gather_lobes.hpp"
 
 namespace render {
@@ -95,13 +96,7 @@ public:
             const lightcuts::AttenuatedBounds<lightcuts::UniformMedium, lightcuts::TwoStageBounds> bounds(
                 scene_.fog.medium, own.points.shadow_offset);
             const auto result = lightcuts::gather(forest_, own.trees, oracle, own.pairs, product, bounds);
-            shading = {};
-            shading.radiance = result.radiance;
-            shading.error_bound = result.error_bound;
-            shading.clamp_threshold = result.clamp_threshold;
-            shading.cut_size = result.cut_size;
-            shading.shadow_rays = result.queries;
-            shading.at_limit = result.stop == lightcuts::StopReason::limit;
+            shading = shading_of(result);
             shading.pairs = result.pairs;
         });
         shading.gather_points = static_cast<std::uint32_t>(own.trees.point_count());

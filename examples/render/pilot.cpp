@@ -6,7 +6,7 @@
 
 #include <oneapi/tbb/parallel_for.h>
 
-#include "shutter.hpp"
+#include "coarse_picture.hpp"
 #include "tile_order.hpp"
 
 namespace render {
@@ -30,10 +30,8 @@ std::vector<std::vector<SurfacePoint>> pilot_blocks(const MovingView& view, cons
         for (int y = tile.y0; y < tile.y1; ++y) {
             for (int x = tile.x0; x < tile.x1; ++x) {
                 const auto pixel = static_cast<std::uint32_t>(y * view.width() + x);
-                const std::uint32_t instant = instant_of_ray(0, pixel, 0, 1, view.instants());
-                EyeRay ray = view.at(instant).ray(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
-                ray.instant = instant;
-                surfaces.follow(ray, pixel, 0, blocks[b]);
+                see_through(view, surfaces, {static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f}, pixel,
+                            blocks[b]);
             }
         }
     });

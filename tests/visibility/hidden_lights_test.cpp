@@ -52,10 +52,15 @@ struct House {
     }
 };
 
-struct HouseOracle {
+/// A lamp somewhere in the lower or in the upper room.
+OmniLight<> any_lamp(Random& random, bool lower) {
+    const double floor = lower ? 0.2 : 3.2;
+    return {glm::vec3(random.in_box({-2.8, -2.8, floor}, {2.8, 2.8, floor + 2.5})), glm::vec3(1.0f), {}};
+}
+
+/// Sees what no triangle of the house is before.
+struct HouseVisible {
     const SoupHit& hit;
-    const HiddenLights<SoupHit>& hidden;
-    mutable std::size_t proofs = 0;
 
     template <class R, Light L>
     bool operator()(const R& receiver, const L& light) const {
@@ -63,6 +68,13 @@ struct HouseOracle {
         return hit({receiver.shadow_origin, 0, position_or_direction(light), 0, 0, distant}) ==
                OccluderMesh::no_triangle;
     }
+};
+
+/// The same with proofs, which it counts.
+struct HouseOracle : HouseVisible {
+    const HiddenLights<SoupHit>& hidden;
+    mutable std::size_t proofs = 0;
+
     template <class R, class Lights>
     bool hides(const R& receiver, const Lights& lights) const {
         const bool result = hidden.hides(receiver, lights);
@@ -128,8 +140,7 @@ TEST(HiddenLights, SpareTheCutWhatIsHidden) {
     std::vector<OmniLight<>> lamps;
     std::vector<DistantLight<>> sky;
     for (int i = 0; i < 400; ++i) {
-        const double floor = i % 10 == 0 ? 0.2 : 3.2;  // one in ten in the lower room
-        lamps.push_back({glm::vec3(random.in_box({-2.8, -2.8, floor}, {2.8, 2.8, floor + 2.5})), glm::vec3(1.0f), {}});
+        lamps.push_back(any_lamp(random, i % 10 == 0));
         sky.push_back({glm::vec3(random.on_sphere()), glm::vec3(1.0f)});
     }
     const LightTree near(lamps);
@@ -139,17 +150,11 @@ TEST(HiddenLights, SpareTheCutWhatIsHidden) {
     for (int i = 0; i < 30; ++i) {
         const Receiver receiver(glm::vec3(random.in_box({-2.8, -2.8, 0.01}, {2.8, 2.8, 0.02})),
                                 Lambert<>{glm::vec3(0.0f, 0.0f, 1.0f), glm::vec3(0.5f)});
-        const HouseOracle oracle{hit, hidden};
-        struct Plain {
-            const HouseOracle& oracle;
-            bool operator()(const Receiver<Lambert<>>& r, const OmniLight<>& light) const { return oracle(r, light); }
-            bool operator()(const Receiver<Lambert<>>& r, const DistantLight<>& light) const {
-                return oracle(r, light);
-            }
-        };
+        const HouseVisible visible{hit};
+        const HouseOracle oracle{visible, hidden};
         const LightcutOptions options{.max_cut = 0, .exhaustive_below = 0};
         const CutResult<glm::vec3> cut = shade(lights, receiver, oracle, options);
-        const CutResult<glm::vec3> without = shade(lights, receiver, Plain{oracle}, options);
+        const CutResult<glm::vec3> without = shade(lights, receiver, visible, options);
         const glm::vec3 exact = exhaustive(lights, receiver, oracle).radiance;
         for (int c = 0; c < 3; ++c)
             EXPECT_LE(std::fabs(cut.radiance[c] - exact[c]), cut.error_bound[c] + 1e-5f * exact[c]);
@@ -161,27 +166,13 @@ TEST(HiddenLights, SpareTheCutWhatIsHidden) {
     EXPECT_LT(static_cast<double>(proved), 0.6 * static_cast<double>(plain));
 }
 
-/// Sees what no triangle of the house is before.
-struct HouseVisible {
-    const SoupHit& hit;
-    template <class L>
-    bool operator()(const Receiver<Lambert<>>& receiver, const L& light) const {
-        const bool distant = DirectionalLight<L>;
-        return hit({receiver.shadow_origin, 0, position_or_direction(light), 0, 0, distant}) ==
-               OccluderMesh::no_triangle;
-    }
-};
-
 TEST(ShadeInGroups, IsWithinItsBoundsWhateverIsShared) {
     const House house;
     const SoupHit hit{house.soup};
     const HiddenLights hidden(house.mesh, hit);
     Random random(4);
     std::vector<OmniLight<>> lamps;
-    for (int i = 0; i < 600; ++i) {
-        const double floor = i % 20 == 0 ? 0.2 : 3.2;
-        lamps.push_back({glm::vec3(random.in_box({-2.8, -2.8, floor}, {2.8, 2.8, floor + 2.5})), glm::vec3(1.0f), {}});
-    }
+    for (int i = 0; i < 600; ++i) lamps.push_back(any_lamp(random, i % 20 == 0));
     const LightTree lights(lamps);
     std::vector<Receiver<Lambert<>>> receivers;
     for (int i = 0; i < 200; ++i) {
@@ -228,10 +219,7 @@ TEST(ShadeInGroups, ProvesForOneWhereItsCutEndsAtTheLimit) {
     const HiddenLights hidden(house.mesh, hit);
     Random random(5);
     std::vector<OmniLight<>> lamps;
-    for (int i = 0; i < 2000; ++i) {
-        const double floor = i % 100 == 0 ? 0.2 : 3.2;
-        lamps.push_back({glm::vec3(random.in_box({-2.8, -2.8, floor}, {2.8, 2.8, floor + 2.5})), glm::vec3(1.0f), {}});
-    }
+    for (int i = 0; i < 2000; ++i) lamps.push_back(any_lamp(random, i % 100 == 0));
     const LightTree lights(lamps);
     std::vector<Receiver<Lambert<>>> receivers;
     for (int i = 0; i < 32; ++i) {
